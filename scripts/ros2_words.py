@@ -10,7 +10,7 @@ from pathlib import Path
 
 import yaml
 
-from teo_ros2cli.cli.dispatch import Entry, add_arguments, verbs_of
+from teo_ros2cli.cli.dispatch import Entry, Group, add_arguments
 from teo_ros2cli.main import COMMANDS
 
 _PACKAGE = Path(__file__).parents[1] / "tools" / "teo_ros2cli"
@@ -67,11 +67,12 @@ def _there(words: tuple[str, str], ours: bool, theirs: bool) -> str:
     return f"no: {_ABSENT.get(words) or _ABSENT[words[0], '']}"
 
 
-def _own(entries: Mapping[str, Entry], before: str = "") -> Iterator[tuple[tuple[str, str], list[str]]]:
+def _own(
+    entries: Mapping[str, Entry | Group], before: str = ""
+) -> Iterator[tuple[tuple[str, str], list[str]]]:
     for name, entry in entries.items():
-        verbs = verbs_of(entry)
-        if verbs is not None:
-            yield from _own(verbs, name)
+        if isinstance(entry, Group):
+            yield from _own(entry.entries, name)
             continue
         parser = argparse.ArgumentParser(add_help=False)
         add_arguments(parser, entry)

@@ -3,7 +3,8 @@
 """Every command that a page of this project shows is run as it stands there, or named here with the reason.
 
 The commands of one page are run in their order and in one folder. What serves until Ctrl-C goes on until its
-block ends, so that the lines below it meet it, and must end well then.
+block ends, so that the lines below it meet it, and must end well then. A line that stands on several pages is
+run on the first of them.
 """
 
 from __future__ import annotations
@@ -15,8 +16,9 @@ import signal
 import socket
 import subprocess
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
+from itertools import zip_longest
 from pathlib import Path
 from typing import NamedTuple
 
@@ -71,30 +73,31 @@ class Command(NamedTuple):
     program: tuple[str, ...] = ("bash", "-c")
 
 
+Block = list[Command]
+
 #: What serves until Ctrl-C.
 SERVES = re.compile(r"make run|teo_bringup up|_node\b|topic echo(?!.*--once)|&$")
 #: What records until Ctrl-C; the lines below want the recording.
 RECORDS = re.compile(r"bag record")
 #: Pages whose lines are alternatives: each is run with nothing beside it.
 ALTERNATIVES = {"src/teo_bringup/README.md"}
-#: Pages with consoles.
-CONSOLES = {
-    "docs/console.md",
-    "docs/index.md",
-    *ALTERNATIVES,
-    "src/teo_console/README.md",
-    "tools/teo_ros2cli/README.md",
-}
-#: Pages that speak to nodes which run already.
-BESIDE_NODES = {"docs/console.md", "docs/index.md", "tools/teo_ros2cli/README.md"}
+#: Pages whose lines speak to nodes that run already, then those whose consoles want the same port.
+BESIDE_NODES = ("tools/teo_ros2cli/README.md", "docs/console.md")
+CONSOLES = (*BESIDE_NODES, "docs/index.md", "src/teo_bringup/README.md", "src/teo_console/README.md")
 NODES = Command("ros2 run teo_bringup up translator executor driver console")
+#: Lines that need what runs beside them.
+SPEAKS = re.compile(r"ros2 (topic|bag (record|play))")
+#: Pages whose blocks need nothing of one another.
+PARTED = {"README.md"}
+#: Pages that take longest.
+LONGEST = ("src/teo_sign_capture/CAPTURE.md", "docs/add-a-robot.md", CONSOLES[0])
 
 
 def name_of(page: Path) -> str:
     return str(page.relative_to(ROOT))
 
 
-def blocks(page: Path) -> Iterator[list[Command]]:
+def blocks(page: Path) -> Iterator[Block]:
     for language, text in re.findall(r"^```(console|sh|python)\n(.*?)^```", page.read_text(), re.S | re.M):
         joined = text.replace("\\\n", " ")
         if language == "python":
@@ -106,16 +109,78 @@ def blocks(page: Path) -> Iterator[list[Command]]:
             yield [Command(line, rest) for line, _, rest in (part.partition("\n") for part in shown)]
 
 
-# Each page by itself, but those together whose consoles want one port.
-GROUPS = [
-    [page for page in PAGES if name_of(page) in CONSOLES],
-    *([page] for page in PAGES if name_of(page) not in CONSOLES and list(blocks(page))),
-]
-
-
 def reason_not_to_run(line: str) -> str | None:
     code = line.split(" #")[0]
     return next((reason for pattern, reason in NOT_RUN.items() if re.search(pattern, code)), None)
+
+
+class Part(NamedTuple):
+    """A page, or a block of one that stands by itself."""
+
+    page: str
+    blocks: list[Block]
+
+
+def has_work(block: Block) -> bool:
+    return any(reason_not_to_run(command.line) is None for command in block)
+
+
+def groups() -> Iterator[list[Part]]:
+    """What runs in one folder after another: pages whose consoles want one port; every other page alone."""
+    yield [Part(name, list(blocks(ROOT / name))) for name in CONSOLES]
+    for page in PAGES:
+        name, shown = name_of(page), list(blocks(page))
+        if name in PARTED:
+            yield from ([Part(name, [block])] for block in shown if has_work(block))
+        elif name not in CONSOLES and any(map(has_work, shown)):
+            yield [Part(name, shown)]
+
+
+def dealt(all_groups: Iterable[list[Part]]) -> list[list[Part]]:
+    """Every second group is a long one as long as there are any: a worker takes two at a time."""
+    long: list[list[Part]] = []
+    short: list[list[Part]] = []
+    for group in all_groups:
+        (long if group[0].page in (*LONGEST, *PARTED) else short).append(group)
+    return [group for pair in zip_longest(long, short) for group in pair if group is not None]
+
+
+GROUPS = dealt(groups())
+
+
+def code_of(line: str) -> str:
+    """A line without its comment and its spaces."""
+    return " ".join(line.split(" #")[0].split())
+
+
+def first_places() -> dict[str, str]:
+    """The page on which each of the project's own commands stands first; what is short is run everywhere."""
+    places = {NODES.line: CONSOLES[0]}
+    for part in (part for group in GROUPS for part in group):
+        for command in (command for block in part.blocks for command in block):
+            if re.match("ros2 run|make demo", command.line):
+                places.setdefault(code_of(command.line), part.page)
+    return places
+
+
+FIRST = first_places()
+
+
+class Beside:
+    """The nodes that pages of `BESIDE_NODES` speak to: from the first line that does until others start."""
+
+    def __init__(self) -> None:
+        self._running = ExitStack()
+        self.started = False
+
+    def start(self, folder: Path) -> None:
+        if not self.started:
+            self._running.enter_context(served(NODES, folder))
+            self.started = True
+
+    def stop(self) -> None:
+        self.started = False
+        self._running.close()
 
 
 def readers_folder(folder: Path) -> Path:
@@ -227,40 +292,52 @@ def run(command: Command, folder: Path) -> None:
         assert said == command.prints
 
 
-@pytest.mark.parametrize("pages", GROUPS, ids=lambda pages: ",".join(map(name_of, pages)))
+def name_of_group(group: list[Part]) -> str:
+    return ",".join(f"{part.page}: {part.blocks[0][0].line[:30]}" for part in group)
+
+
+@pytest.mark.parametrize("parts", GROUPS, ids=name_of_group)
 def test_the_commands_of_a_page_do_what_it_shows(
-    pages: list[Path],
+    parts: list[Part],
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     domain_id: int,  # noqa: ARG001
 ) -> None:
     failures = []
-    for number, page in enumerate(pages):
+    beside = Beside()
+    for number, part in enumerate(parts):
         folder = readers_folder(tmp_path / str(number))
-        if page.parent.name == "bags":  # that page makes the bag
+        if part.page.startswith("bags/"):  # that page makes the bag
             shutil.rmtree(folder / "bags" / "signer_d435")
         # His table and the executor's journal.
         monkeypatch.setenv("HOME", str(folder))
         monkeypatch.delenv("XDG_DATA_HOME", raising=False)
-        for block in blocks(page):
+        for block in part.blocks:
             try:
-                run_block(name_of(page), block, folder)
+                run_block(part.page, block, folder, beside)
             except (AssertionError, subprocess.TimeoutExpired) as error:
-                failures.append(f"{name_of(page)}: {block[0].line}\n{error}")
+                failures.append(f"{part.page}: {block[0].line}\n{error}")
+    beside.stop()
     assert not failures, "\n\n".join(failures)
 
 
-def run_block(page: str, block: list[Command], folder: Path) -> None:
-    to_run = [command for command in block if reason_not_to_run(command.line) is None]
+def run_block(page: str, block: Block, folder: Path, beside: Beside) -> None:
+    to_run = [
+        command
+        for command in block
+        if reason_not_to_run(command.line) is None and FIRST.get(code_of(command.line), page) == page
+    ]
+    if any(SERVES.search(code_of(command.line)) for command in to_run):
+        beside.stop()
+    elif page in BESIDE_NODES and any(SPEAKS.match(command.line) for command in to_run):
+        beside.start(folder)
     with ExitStack() as serving:
-        if page in BESIDE_NODES and to_run and not any(SERVES.search(command.line) for command in to_run):
-            serving.enter_context(served(NODES, folder))
         for command in to_run:
             if page in ALTERNATIVES:
                 serving.close()
             if RECORDS.search(command.line):
                 record(command, folder)
-            elif SERVES.search(command.line.split(" #")[0].rstrip()):
+            elif SERVES.search(code_of(command.line)):
                 serving.enter_context(served(command, folder))
             else:
                 run(command, folder)

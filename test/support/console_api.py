@@ -15,7 +15,7 @@ from aiohttp import web
 
 from teo_console.api.routes import all_routes
 from teo_console.api.workbench import Folders, Workbench
-from teo_console.protocol.to_page import Answer, Motion
+from teo_console.protocol import Answer, Motion
 from teo_console.review.series import NewItem
 from teo_console.server.access import Access
 from teo_console.server.app import make_app

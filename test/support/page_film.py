@@ -33,14 +33,22 @@ class Scene:
 class Film:
     """Pictures of pages, one scene after the other."""
 
-    def __init__(self) -> None:
-        """Begin without a picture."""
+    def __init__(self, *, wanted: bool) -> None:
+        """Begin without a picture.
+
+        Args:
+            wanted: False to take none: a film costs a minute of processor time.
+        """
+        self._wanted = wanted
         self._scenes: list[Scene] = []
 
     @contextmanager
     def scene(self, page: Page) -> Iterator[Scene]:
         """Film a page while something is done on it: the browser sends a picture whenever one has changed."""
         scene = Scene()
+        if not self._wanted:
+            yield scene
+            return
         session = page.context.new_cdp_session(page)
 
         def take(frame: dict[str, Any]) -> None:

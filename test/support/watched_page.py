@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from PIL import Image
 from playwright.sync_api import Page, WebSocket, expect
 
-from teo_console.protocol.to_page import decode_pose
+from teo_console.protocol import decode_pose
 
 PATIENCE = 90.0  # [s] for what a page shows, on a loaded machine
 DIFFERENT = 3.0  # mean difference of two pictures' pixels, of 255, above which they show different things

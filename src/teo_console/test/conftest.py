@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -47,13 +48,6 @@ def address(nodes: ConsoleNodes, graph: Graph) -> str:  # noqa: ARG001
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
     """One for a module's tests of the page: while it is there, no other event loop can run in this thread."""
-    with launched() as browser:
-        yield browser
-
-
-@pytest.fixture
-def brief_browser() -> Iterator[Browser]:
-    """One for a single test, in modules whose other tests run event loops of their own."""
     with launched() as browser:
         yield browser
 
@@ -108,7 +102,7 @@ def pictures() -> Path:
 
 @pytest.fixture(scope="module")
 def film(pictures: Path, request: pytest.FixtureRequest) -> Iterator[Film]:
-    """What the tests of a module film, one after the other, goes into one film: page.webp, tabs.webp."""
-    film = Film()
+    """What the tests of a module film goes into one film, page.webp or tabs.webp, where TEO_FILM is set."""
+    film = Film(wanted="TEO_FILM" in os.environ)
     yield film
     film.save(pictures / f"{request.path.stem.removeprefix('test_')}.webp")

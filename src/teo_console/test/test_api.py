@@ -10,10 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from console_api import PATIENCE, Api
-from playwright.sync_api import Browser, expect
-
-from teo_console.jobs import recordings as recordings_module
+from console_api import Api
 
 BAG = b"\x89MCAP0\r\n" + bytes(1000)
 
@@ -53,45 +50,6 @@ def test_a_reviewer_says_what_it_was_before_reading_it_and_the_export_has_it(api
     assert len(figures["anchors"]) == 3
 
 
-def test_a_comprehension_test_is_taken_in_a_browser_tells_nothing_and_is_reported(
-    api: Api, brief_browser: Browser, pictures: Path
-) -> None:
-    words = ("CASA", *(f"PALABRA_{number}" for number in range(1, 15)))
-    series = api.add_series("comprehension", "CASA", "PERRO", choices=words)
-    context = brief_browser.new_context(viewport={"width": 390, "height": 844}, locale="es-ES")
-    context.grant_permissions(["clipboard-read", "clipboard-write"])
-    page = context.new_page()
-    try:
-        page.goto(f"{api.url}/#review")
-        page.get_by_role("button", name="Copiar el enlace").click()
-        expect(page.locator("#notice")).to_have_text("Enlace copiado.")
-        link = page.evaluate("navigator.clipboard.readText()")
-        assert link == f"{api.url}/#review/{series}"
-        page = context.new_page()  # whoever was sent the link opens it
-        page.goto(link)
-        page.fill("#reviewer", "Ana")
-        page.keyboard.press("Enter")
-        for number in (1, 2):
-            expect(page.locator("h2")).to_have_text(f"Signo {number} de 2", timeout=PATIENCE * 1e3)
-            if page.locator("[data-choice]").count():
-                assert page.locator("[data-choice]").count() == 15
-                page.screenshot(path=pictures / "choices_phone.png", full_page=True)
-                page.click("[data-choice=CASA]")
-            else:
-                page.fill("#understood", "gato")
-                page.keyboard.press("Enter")
-            assert page.locator(".meaning").count() == 0
-        expect(page.locator("#all-done")).to_be_visible(timeout=PATIENCE * 1e3)
-        page.goto(f"{api.url}/#review/{series}/report")
-        # One of two: Wilson's interval is (1 + z²/2 ± z √(1/2 + z²/4)) / (2 + z²) with z = 1.96.
-        expect(page.locator("dl")).to_contain_text("50\u00a0% (9\u00a0%–91\u00a0%)", timeout=PATIENCE * 1e3)
-        expect(page.locator("tr").filter(has_text="PERRO")).to_contain_text("gato ×1")
-        assert page.evaluate("document.documentElement.scrollWidth") <= 390
-        page.screenshot(path=pictures / "comprehension_report_phone.png", full_page=True)
-    finally:
-        context.close()
-
-
 @pytest.mark.parametrize(
     ("method", "path", "body", "status", "code"),
     [
@@ -124,15 +82,6 @@ def test_what_makes_no_sense_is_refused_with_a_reason(
 
 def test_a_body_that_is_no_film_may_not_be_large(api: Api) -> None:
     assert api.ask("POST", "/api/coverage", b" " * 200_000)[0] == 413
-
-
-def test_a_recording_that_is_too_large_is_refused_and_nothing_of_it_stays(
-    api: Api, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(recordings_module, "MOST_BYTES", 500_000)
-    status, answer = api.ask("POST", "/api/recordings", BAG + bytes(3_000_000))
-    assert (status, answer["code"]) == (413, "too_large")
-    assert recordings(api) == []
 
 
 def test_a_page_of_another_site_uploads_nothing(api: Api) -> None:
@@ -169,3 +118,16 @@ def test_recordings_of_a_console_that_was_killed_are_deleted(tmp_path: Path) -> 
     api = Api(tmp_path)
     api.thread.close()
     assert not left.exists()
+
+
+def test_drawings_and_no_other_file_are_given_out_under_the_page_s_rules(api: Api) -> None:
+    folder = api.folders.signwriting
+    for name in ("signs.json", "drawings.svg"):
+        assert api.ask("GET", f"/signwriting/{name}") == (204, "")  # nothing was drawn
+    folder.mkdir()
+    (folder / "signs.json").write_text("{}", "utf-8")
+    (folder / "private.txt").write_text("secret", "utf-8")
+    assert api.ask("GET", "/signwriting/signs.json") == (200, {})
+    for name in ("private.txt", "", "..%2Freviews.sqlite", "drawings.svg%2F..%2Fprivate.txt"):
+        assert api.ask("GET", f"/signwriting/{name}")[0] in (403, 404), name
+    assert api.ask("GET", "/signwriting/signs.json", origin="http://evil.example")[0] == 403

@@ -86,7 +86,7 @@ def set_driver(node: Node, **values: float) -> None:
 
 
 def test_a_typed_sentence_is_signed_its_captions_in_order_while_the_joints_move(
-    new_page: NewPage, pictures: Path
+    new_page: NewPage, pictures: Path, film: Film
 ) -> None:
     poses = Poses()
     page = new_page(poses=poses)
@@ -94,64 +94,43 @@ def test_a_typed_sentence_is_signed_its_captions_in_order_while_the_joints_move(
     page.wait_for_selector(".captions", state="attached")
     page.evaluate(NOTE_LIT)
     page.wait_for_selector(".stage .empty", state="hidden")
-    sign_and_watch(page, pictures)
+    with film.scene(page):
+        sign(page, "¿Eres Eva?")
+        expect(page.locator(".token.lit")).to_be_visible()
+        assert page.inner_text("#status").startswith("Signando: ¿Eres Eva?")
+        glosses = page.locator(".token").evaluate_all("items => items.map((item) => item.dataset.gloss)")
+        assert glosses == ["TÚ", "E", "V", "A"]
+        assert page.locator(".pill").all_inner_texts() == ["Pregunta: la cabeza se adelanta"]
+        page.click('.token[data-gloss="V"] button')
+        expect(page.locator(".explanation")).to_contain_text("«Eva» se deletrea")
+        page.screenshot(path=pictures / "watch_desktop.png")
+        wait_until_ready(page)
     assert page.evaluate("window.lit") == ["TÚ", "E", "V", "A"]
     assert poses.farthest() > 0.5
     expect(page.locator(".history li").filter(has_text="¿Eres Eva?")).to_have_count(1)
     assert page.locator(".stage canvas").count() == 1
 
 
-def sign_and_watch(page: Page, pictures: Path) -> None:
-    sign(page, "¿Eres Eva?")
-    expect(page.locator(".token.lit")).to_be_visible()
-    assert page.inner_text("#status").startswith("Signando: ¿Eres Eva?")
-    assert page.locator(".token").evaluate_all("items => items.map((item) => item.dataset.gloss)") == [
-        "TÚ",
-        "E",
-        "V",
-        "A",
-    ]
-    assert page.locator(".pill").all_inner_texts() == ["Pregunta: la cabeza se adelanta"]
-    page.click('.token[data-gloss="V"] button')
-    expect(page.locator(".explanation")).to_contain_text("«Eva» se deletrea")
-    page.screenshot(path=pictures / "watch_desktop.png")
-    wait_until_ready(page)
-
-
-def test_stop_holds_the_robot_until_it_is_rearmed(new_page: NewPage) -> None:
+def test_stop_holds_the_robot_until_it_is_rearmed(new_page: NewPage, film: Film) -> None:
     poses = Poses()
     page = new_page(poses=poses)
     wait_until_ready(page)
-    stop_and_rearm(page, poses, "Me llamo Ana.")
-
-
-def stop_and_rearm(page: Page, poses: Poses, text: str) -> None:
-    """Stop the robot while it signs a text that is not in the history yet, and re-arm it."""
-    sign(page, text)
-    expect(page.locator(".token.lit")).to_be_visible()
-    page.click("#stop")
-    expect(page.locator("#status")).to_have_text("Parado: no se mueve hasta rearmarlo.")
-    expect(page.locator(".history li").filter(has_text=text)).to_contain_text("Se paró el robot")
-    sign(page, "Adiós.")  # waits
-    expect(page.locator("#queue-title ~ ol li")).to_have_text("Adiós.")
-    stopped = poses.heard[-1][0] + BRAKED
-    poses.wait_until(page, stopped + STILLNESS)
-    assert poses.farthest(since=stopped) == 0.0
-    page.click("#clear")
-    expect(page.locator("#queue-title ~ ol li")).to_have_count(0)
-    page.click("#rearm")
-    wait_until_ready(page)
-
-
-@pytest.mark.slow
-def test_a_sentence_and_a_stop_are_filmed(new_page: NewPage, pictures: Path, film: Film) -> None:
-    poses = Poses()
-    page = new_page(poses=poses)
-    wait_until_ready(page)
-    page.wait_for_selector(".stage .empty", state="hidden")
+    text = "Me llamo Ana."
     with film.scene(page):
-        sign_and_watch(page, pictures)
-        stop_and_rearm(page, poses, "Me llamo Eva.")
+        sign(page, text)
+        expect(page.locator(".token.lit")).to_be_visible()
+        page.click("#stop")
+        expect(page.locator("#status")).to_have_text("Parado: no se mueve hasta rearmarlo.")
+        expect(page.locator(".history li").filter(has_text=text)).to_contain_text("Se paró el robot")
+        sign(page, "Adiós.")  # waits
+        expect(page.locator("#queue-title ~ ol li")).to_have_text("Adiós.")
+        stopped = poses.heard[-1][0] + BRAKED
+        poses.wait_until(page, stopped + STILLNESS)
+        assert poses.farthest(since=stopped) == 0.0
+        page.click("#clear")
+        expect(page.locator("#queue-title ~ ol li")).to_have_count(0)
+        page.click("#rearm")
+        wait_until_ready(page)
 
 
 def test_a_robot_that_is_rearmed_while_it_brakes_is_armed_when_it_is_at_rest(
@@ -260,7 +239,7 @@ def test_typed_markup_stays_text(new_page: NewPage) -> None:
 
 
 @pytest.mark.slow
-def test_both_languages_say_everything_and_the_choice_is_remembered(
+def test_every_tab_says_everything_in_both_languages_and_bars_nobody(
     new_page: NewPage, pictures: Path
 ) -> None:
     page = new_page(width=390, height=844)
@@ -276,6 +255,10 @@ def test_both_languages_say_everything_and_the_choice_is_remembered(
             expect(page.locator("#content")).to_have_attribute("data-tab", tab)
             shown = set(re.findall(r"[a-z_0-9]+(?:\.[a-z_0-9]+)+", page.inner_text("body")))
             assert not shown & {key for key in keys if "." in key}
+            if language == "en":
+                for scheme in ("light", "dark"):
+                    page.emulate_media(color_scheme=scheme)  # type: ignore[arg-type]
+                    accessible(page)
         page.reload()
         expect(page.locator("nav a").first).to_have_text(word)
     # No part of the page is wider than a telephone.
@@ -292,43 +275,18 @@ def test_the_languages_have_the_same_words() -> None:
         assert sorted(re.findall(r"\{\w+\}", words)) == sorted(re.findall(r"\{\w+\}", english[key])), key
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_no_tab_bars_anybody(new_page: NewPage, scheme: str) -> None:
-    page = new_page()
-    page.emulate_media(color_scheme=scheme)  # type: ignore[arg-type]
-    for tab in TABS:
-        page.goto(f"{page.url.partition('#')[0]}#{tab}")
-        expect(page.locator("#content")).to_have_attribute("data-tab", tab)
-        accessible(page)
-
-
-@pytest.mark.parametrize(
-    ("language", "tabs", "stopped"),
-    [
-        pytest.param(
-            "es", ("Diccionario", "Enseñar", "Revisar", "Practicar", "Ver"),
-            "Parado: no se mueve hasta rearmarlo.",
-        ),
-        pytest.param(
-            "en", ("Dictionary", "Teach", "Review", "Practise", "Watch"),
-            "Stopped: it stays still until re-armed.", marks=pytest.mark.slow,
-        ),
-    ],
-)  # fmt: skip
-def test_a_sentence_is_signed_stopped_and_the_tabs_are_seen_by_keyboard_alone(
-    new_page: NewPage, language: str, tabs: tuple[str, ...], stopped: str
-) -> None:
+def test_a_sentence_is_signed_stopped_and_the_tabs_are_seen_by_keyboard_alone(new_page: NewPage) -> None:
     page = new_page()
     wait_until_ready(page)
-    if language == "en":
-        tab_to(page, "language")
-    expect(page.locator("html")).to_have_attribute("lang", language)
+    tab_to(page, "language")
+    expect(page.locator("html")).to_have_attribute("lang", "en")
     page.wait_for_selector("#mirror")
-    for number, name in enumerate(tabs):
+    for tab, name in zip(
+        (*TABS[1:], TABS[0]), ("Dictionary", "Teach", "Review", "Practise", "Watch"), strict=True
+    ):
         tab_to(page, name)
         expect(page.locator("nav a[aria-current]")).to_have_text(name)
-        expect(page.locator("#content")).to_have_attribute("data-tab", (*TABS[1:], TABS[0])[number])
+        expect(page.locator("#content")).to_have_attribute("data-tab", tab)
     page.wait_for_selector("#mirror")  # beside the robot, which comes last
     tab_to(page, "text")
     page.keyboard.type("Adiós, Bartolomé.")
@@ -336,7 +294,7 @@ def test_a_sentence_is_signed_stopped_and_the_tabs_are_seen_by_keyboard_alone(
     expect(page.locator(".token.lit")).to_be_visible()
     for control in ("pause", "mirror", "stop"):
         tab_to(page, control)
-    expect(page.locator("#status")).to_have_text(stopped)
+    expect(page.locator("#status")).to_have_text("Stopped: it stays still until re-armed.")
     expect(page.locator("#rearm")).to_be_enabled()
     tab_to(page, "rearm")
     wait_until_ready(page)

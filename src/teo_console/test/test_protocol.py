@@ -13,9 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from teo_console.errors import ConsoleError
-from teo_console.protocol.from_page import SetSpeed, SignText, decode
-from teo_console.protocol.schema import schema_text
-from teo_console.protocol.to_page import decode_pose, encode_pose
+from teo_console.protocol import SetSpeed, SignText, decode, decode_pose, encode_pose, schema_text
 
 SCHEMA = Path(__file__).parents[1] / "protocol.schema.json"
 

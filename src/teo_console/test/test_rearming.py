@@ -9,8 +9,7 @@ from std_srvs.srv import Trigger
 
 from teo_console.node.messages import to_answer
 from teo_console.node.rearming import PATIENCE, Rearming, Reply
-from teo_console.protocol.from_page import Command, Order
-from teo_console.protocol.to_page import Answer
+from teo_console.protocol import Answer, Command, Order
 
 REARM = Command(id=7, order=Order.REARM)
 BRAKING = Answer(id=7, success=False, code="moving", message="at rest in 0.19 s")
@@ -113,22 +112,17 @@ def test_two_pages_are_both_answered(driver: Driver, rearming: Rearming) -> None
 
 
 @pytest.mark.parametrize(
-    ("said", "code", "sentence"),
+    ("success", "said", "code", "sentence"),
     [
-        ("moving: the robot is at rest in 0.19 s: call again then", "moving",
-         "the robot is at rest in 0.19 s: call again then"),
-        ("it does not say why", "not_done", "it does not say why"),
-        ("Two words: not a code", "not_done", "Two words: not a code"),
-        ("", "not_done", ""),
+        (False, "moving: at rest in 0.19 s: call again then", "moving", "at rest in 0.19 s: call again then"),
+        (False, "it does not say why", "not_done", "it does not say why"),
+        (False, "Two words: not a code", "not_done", "Two words: not a code"),
+        (False, "", "not_done", ""),
+        (True, "stopped: at rest", "", "stopped: at rest"),
     ],
-)  # fmt: skip
+)
 def test_a_service_that_refuses_says_why_by_a_code_where_it_has_one(
-    said: str, code: str, sentence: str
+    success: bool, said: str, code: str, sentence: str
 ) -> None:
-    answer = to_answer(7, Trigger.Response(success=False, message=said))
-    assert answer == Answer(id=7, success=False, code=code, message=sentence)
-
-
-def test_a_service_that_has_done_it_gives_no_code() -> None:
-    answer = to_answer(7, Trigger.Response(success=True, message="stopped: at rest"))
-    assert answer == Answer(id=7, success=True, message="stopped: at rest")
+    answer = to_answer(7, Trigger.Response(success=success, message=said))
+    assert answer == Answer(id=7, success=success, code=code, message=sentence)

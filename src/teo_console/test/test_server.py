@@ -18,12 +18,10 @@ import pytest
 from aiohttp import WSMsgType
 
 from teo_console.errors import ConsoleError
-from teo_console.protocol.from_page import MESSAGE_BYTES, FromPage
-from teo_console.protocol.to_page import Answer
+from teo_console.protocol import MESSAGE_BYTES, Answer, FromPage
 from teo_console.server.access import Access
-from teo_console.server.app import make_app
-from teo_console.server.drawable_urdf import drawable_urdf
-from teo_console.server.hub import Hub, RateLimit
+from teo_console.server.app import drawable_urdf, make_app
+from teo_console.server.hub import Hub
 from teo_console.server.thread import ServerThread
 
 WEB = Path(__file__).parents[1] / "web"
@@ -266,19 +264,6 @@ def test_a_port_that_is_taken_is_named() -> None:
         assert refused.value.code == "port_taken"
     finally:
         server.thread.close()
-
-
-def test_a_burst_passes_and_then_the_rate() -> None:
-    limit = RateLimit(rate=2.0, burst=3)
-    assert [limit.take(0.0) for _ in range(4)] == [True, True, True, False]
-    assert not limit.take(0.4)
-    assert limit.take(0.5)
-    assert [limit.take(100.0) for _ in range(4)] == [
-        True,
-        True,
-        True,
-        False,
-    ]  # no more than a burst is saved up
 
 
 def test_a_robot_of_meshes_is_drawn_by_its_plain_shapes() -> None:

@@ -11,9 +11,9 @@ from msgspec.structs import replace
 
 from teo_common.diagnostics import Level
 from teo_console.errors import ConsoleError
-from teo_console.protocol.to_page import Caption, ExecutorState, Refusal, Sentence, Situation
-from teo_console.situation.sentences import HISTORY, PathReport, SigningReport
-from teo_console.situation.shared_situation import SharedSituation
+from teo_console.protocol import Caption, ExecutorState, Refusal, Sentence, Situation
+from teo_console.sentences import HISTORY, PathReport, SigningReport
+from teo_console.situation import SharedSituation
 
 HELLO = Caption(
     gloss="HOLA", kind="sign", origin="model", words=("Hola",), word_index=0, inflection="", confidence=0.9
@@ -56,12 +56,12 @@ def situation() -> SharedSituation:
     return situation
 
 
-def test_nobody_is_there_before_anybody_is_seen() -> None:
-    assert set(states(SharedSituation(), 5.0).values()) == {"missing"}
-
-
 def test_nodes_that_are_heard_live_whatever_they_are_called(situation: SharedSituation) -> None:
+    assert set(states(SharedSituation(), 5.0).values()) == {"missing"}
+    situation.diagnosis("camera: lens", Level.ERROR, "broken", 100.1)  # a stranger's
     assert set(states(situation, 100.3).values()) == {"alive"}
+    situation.publishers("executor", present=False)  # it ended
+    assert states(situation, 100.3)["executor"] == "missing"
 
 
 def test_a_killed_driver_is_silent_within_a_second_and_the_others_within_three(
@@ -72,20 +72,10 @@ def test_a_killed_driver_is_silent_within_a_second_and_the_others_within_three(
     assert [node.quiet for node in shown(situation, 103.2).nodes] == [3.0, 3.0, 3.0]
 
 
-def test_a_node_that_ended_is_missing_at_once(situation: SharedSituation) -> None:
-    situation.publishers("executor", present=False)
-    assert states(situation, 100.1)["executor"] == "missing"
-
-
 def test_a_node_that_warns_is_unwell_and_says_why(situation: SharedSituation) -> None:
     situation.diagnosis("translator: texts", Level.WARN, "texts were refused", 100.1)
     node = shown(situation, 100.2).nodes[0]
     assert (node.state, node.message) == ("unwell", "texts were refused")
-
-
-def test_a_strangers_diagnostics_are_passed_over(situation: SharedSituation) -> None:
-    situation.diagnosis("camera: lens", Level.ERROR, "broken", 100.1)
-    assert set(states(situation, 100.2).values()) == {"alive"}
 
 
 def test_a_sentence_is_announced_signed_and_history(situation: SharedSituation) -> None:

@@ -1,27 +1,44 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The tabs in a browser without a robot: sentences reviewed, ratings entered, a bag taught, reasons read."""
+"""The tabs in a browser without a robot: signs reviewed, found, taught, shown in writing; reasons read."""
 
 from __future__ import annotations
 
 import ast
+import functools
 import json
 import re
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from console_api import Api
+from aiohttp import web
+from console_api import WEB, Api
 from made_bags import signing, write_bag
 from playwright.sync_api import Browser, Page, expect
 from watched_page import accessible, photograph
 
+from teo_console.api.dictionary import sign_writing_routes
+from teo_console.protocol import Answer, FromPage
+from teo_console.server.access import Access
+from teo_console.server.app import make_app
+from teo_console.server.hub import Hub
+from teo_console.server.thread import ServerThread
 from teo_lut_executor.execution.situation import BLOCKED
+from teo_sign_authoring.signwriting.dictionary_file import read_dictionary
+from teo_sign_authoring.signwriting.drawing import Pen, find_written, write_drawings
 from teo_signs.look_up_table import Lut
 from teo_signs.sign import motion_hash
 
 SOURCES = Path(__file__).parents[2]
 LONG = 120_000  # [ms] for a command of the project's on a loaded machine
+# Two flat hands that touch; a hand that moves up.
+SPML = """<spml puddle="55">
+ <entry><term>M520x520S15a00480x480S15a08500x480S20500495x510</term><term>bandeja</term></entry>
+ <entry><term>M520x520S20310500x500S22a00500x470</term><term>subir 2</term></entry>
+</spml>"""
+TERMS = {"BANDEJA": "bandeja", "SUBIR": "subir 2"}
 
 
 @pytest.fixture
@@ -32,8 +49,8 @@ def api(tmp_path: Path) -> Iterator[Api]:
 
 
 @pytest.fixture
-def page(brief_browser: Browser) -> Iterator[Page]:
-    context = brief_browser.new_context(viewport={"width": 1100, "height": 760}, locale="es-ES")
+def page(browser: Browser) -> Iterator[Page]:
+    context = browser.new_context(viewport={"width": 1100, "height": 760}, locale="es-ES")
     yield context.new_page()
     context.close()
 
@@ -103,6 +120,137 @@ def test_a_bag_is_taught_and_nothing_of_it_is_left_when_it_is_discarded(
     assert not [path for path in api.folders.cache.glob("recordings-*/*") if path.is_dir()]
 
 
+def test_a_comprehension_test_is_taken_in_a_browser_tells_nothing_and_is_reported(
+    api: Api, browser: Browser, pictures: Path
+) -> None:
+    words = ("CASA", *(f"PALABRA_{number}" for number in range(1, 15)))
+    series = api.add_series("comprehension", "CASA", "PERRO", choices=words)
+    context = browser.new_context(viewport={"width": 390, "height": 844}, locale="es-ES")
+    context.grant_permissions(["clipboard-read", "clipboard-write"])
+    page = context.new_page()
+    try:
+        page.goto(f"{api.url}/#review")
+        page.get_by_role("button", name="Copiar el enlace").click()
+        expect(page.locator("#notice")).to_have_text("Enlace copiado.")
+        link = page.evaluate("navigator.clipboard.readText()")
+        assert link == f"{api.url}/#review/{series}"
+        page = context.new_page()  # whoever was sent the link opens it
+        page.goto(link)
+        page.fill("#reviewer", "Ana")
+        page.keyboard.press("Enter")
+        for number in (1, 2):
+            expect(page.locator("h2")).to_have_text(f"Signo {number} de 2", timeout=LONG)
+            if page.locator("[data-choice]").count():
+                assert page.locator("[data-choice]").count() == 15
+                page.screenshot(path=pictures / "choices_phone.png", full_page=True)
+                page.click("[data-choice=CASA]")
+            else:
+                page.fill("#understood", "gato")
+                page.keyboard.press("Enter")
+            assert page.locator(".meaning").count() == 0
+        expect(page.locator("#all-done")).to_be_visible(timeout=LONG)
+        page.goto(f"{api.url}/#review/{series}/report")
+        # One of two: Wilson's interval is (1 + z²/2 ± z √(1/2 + z²/4)) / (2 + z²) with z = 1.96.
+        expect(page.locator("dl")).to_contain_text("50\u00a0% (9\u00a0%–91\u00a0%)", timeout=LONG)
+        expect(page.locator("tr").filter(has_text="PERRO")).to_contain_text("gato ×1")
+        assert page.evaluate("document.documentElement.scrollWidth") <= 390
+        page.screenshot(path=pictures / "comprehension_report_phone.png", full_page=True)
+    finally:
+        context.close()
+
+
+def listed(gloss: str, source: str) -> dict[str, object]:
+    """A sign as /api/signs has it."""
+    return {
+        "gloss": gloss, "language": "ssp", "source": source, "licence": "Apache-2.0", "handedness": "both",
+        "handshapes": [], "duration": 1.0, "standing": "described", "kind": "lexical",
+    }  # fmt: skip
+
+
+@contextmanager
+def server(folder: Path) -> Iterator[str]:
+    """The page with three signs, of which the dictionary's are two; no robot. Gives its address."""
+
+    async def signs(_: web.Request) -> web.Response:
+        sources = {gloss: f'SignPuddle LSE dictionary, entry "{term}"' for gloss, term in TERMS.items()}
+        return web.json_response([listed(*each) for each in {**sources, "CASA": "recorded"}.items()])
+
+    def app() -> web.Application:
+        async def refuse(asked: FromPage) -> Answer:
+            return Answer(id=asked.id, success=False, code="no_executor")
+
+        return make_app(
+            web_folder=WEB,
+            access=Access.for_address("127.0.0.1", frozenset()),
+            hub=Hub(refuse, lambda _: None),
+            urdf=lambda: "<robot/>",
+            routes=[web.get("/api/signs", signs), *sign_writing_routes(folder)],
+        )
+
+    thread = ServerThread(app, "127.0.0.1", 0)
+    try:
+        yield f"http://127.0.0.1:{thread.port}"
+    finally:
+        thread.close()
+
+
+@pytest.fixture
+def drawings(tmp_path: Path) -> Path:
+    """A folder of drawings, made from a dictionary."""
+    (tmp_path / "dictionary.spml").write_text(SPML, "utf-8")
+    found, missing = find_written(TERMS, read_dictionary(tmp_path / "dictionary.spml"))
+    assert not missing
+    pen = Pen()
+    write_drawings(tmp_path / "signwriting", {entry: pen.draw(entry) for entry in found})
+    return tmp_path / "signwriting"
+
+
+@contextmanager
+def page_of(browser: Browser, address: str) -> Iterator[Page]:
+    """The tab Dictionary; what the browser says is wrong fails the test."""
+    page = browser.new_page(viewport={"width": 390, "height": 844}, locale="en-GB")
+    wrong: list[str] = []
+    page.on("pageerror", lambda error: wrong.append(str(error)))
+    page.on("console", lambda said: wrong.append(said.text) if said.type == "error" else None)
+    page.goto(f"{address}/#dictionary")
+    yield page
+    page.close()
+    assert not wrong, wrong
+
+
+def choose(page: Page, gloss: str) -> None:
+    page.click(f"[data-gloss={gloss}]", timeout=LONG)
+    expect(page.locator(".dictionary h2[tabindex]")).to_have_text(gloss, timeout=LONG)
+
+
+def test_a_sign_is_shown_as_the_dictionary_writes_it(
+    drawings: Path, browser: Browser, pictures: Path
+) -> None:
+    with server(drawings) as address, page_of(browser, address) as page:
+        choose(page, "BANDEJA")
+        drawing = page.locator(".signwriting svg")
+        expect(drawing).to_have_attribute("aria-label", "BANDEJA in SignWriting: hand ×2, contact ×1")
+        expect(page.locator(".signwriting")).to_contain_text("from the entry “bandeja”")
+        page.locator(".signwriting").scroll_into_view_if_needed()
+        page.screenshot(path=pictures / "signwriting_phone.png")
+        box = page.locator(".signwriting use").evaluate("use => use.getBoundingClientRect().toJSON()")
+        assert box["width"] > 40
+        assert box["height"] > 40
+        choose(page, "SUBIR")
+        expect(drawing).to_have_attribute("aria-label", "SUBIR in SignWriting: hand ×1, movement ×1")
+        choose(page, "CASA")
+        expect(drawing).to_have_count(0)
+
+
+def test_where_nothing_is_drawn_the_page_shows_nothing_and_nothing_is_wrong(
+    tmp_path: Path, browser: Browser
+) -> None:
+    with server(tmp_path / "nowhere") as address, page_of(browser, address) as page:
+        choose(page, "BANDEJA")
+        expect(page.locator(".signwriting")).to_have_count(0)
+
+
+@functools.cache
 def reasons(*patterns: str) -> set[str]:
     """Every stable reason that these sources give to an error of theirs, or to what they say of one."""
     trees = [ast.parse(path.read_text("utf-8")) for each in patterns for path in SOURCES.glob(each)]
@@ -167,7 +315,8 @@ def test_every_reason_is_read_in_the_language_of_the_page(api: Api, page: Page) 
     codes = sorted(reasons("teo_*/teo_*/**/*.py"))
     assert len(codes) > 200
     # What the tabs themselves refuse is said in words of its own, not by the reason's name.
-    own = reasons(*(f"teo_console/teo_console/{room}/**/*.py" for room in ("api", "jobs", "review")))
+    rooms = ("api/*", "jobs/*", "review/*", "server/app")
+    own = reasons(*(f"teo_console/teo_console/{room}.py" for room in rooms))
     page.goto(api.url)
     for language, foreign in FOREIGN.items():
         told = page.evaluate(

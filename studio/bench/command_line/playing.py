@@ -32,10 +32,10 @@ from std_msgs.msg import String
 
 from report import Figure
 from teo_ros2cli.bags.metadata import TopicRecord
-from teo_ros2cli.bags.qos_record import QosRecord
 from teo_ros2cli.bags.writer import BagWriter
-from teo_ros2cli.definitions import schema_of
+from teo_ros2cli.interfaces import schema_of
 from teo_ros2cli.packages import package_prefix
+from teo_ros2cli.qos import QosRecord
 
 KIND = "std_msgs/msg/String"
 SECOND = 1_000_000_000

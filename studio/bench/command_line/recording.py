@@ -23,7 +23,7 @@ from nodes.driver_rate import cpu_seconds
 from report import Figure
 from teo_ros2cli.bags.metadata import TopicRecord, read_metadata
 from teo_ros2cli.bags.writer import BagWriter
-from teo_ros2cli.definitions import schema_of
+from teo_ros2cli.interfaces import schema_of
 
 _SIZES = ((640, 480), (1280, 720))
 _RATE, _SECONDS = 30, 10

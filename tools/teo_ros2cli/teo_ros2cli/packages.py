@@ -1,59 +1,16 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Installed packages, their executables and interfaces, from the ament index. Needs no ROS running."""
+"""Installed packages and their executables, from the ament index. Needs no ROS running."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
-from typing import NamedTuple
 
 from teo_ros2cli.errors import Ros2CliError
 
-_INDEX = Path("share/ament_index/resource_index")
-INTERFACE_KINDS = ("msg", "srv", "action")
-
-
-class InterfaceName(NamedTuple):
-    """Name of an interface: package, kind (`msg`, `srv`, `action`) and type, as in `std_msgs/msg/String`."""
-
-    package: str
-    kind: str
-    type: str
-
-    def __str__(self) -> str:
-        return f"{self.package}/{self.kind}/{self.type}"
-
-    @classmethod
-    def parse(cls, text: str, default_kind: str = "msg") -> InterfaceName:
-        """Read `pkg/kind/Type`, or `pkg/Type` with the kind that the caller expects.
-
-        Raises:
-            Ros2CliError: `invalid_type`, the text is not of either form.
-        """
-        parts = text.split("/")
-        if len(parts) == 2:
-            parts.insert(1, default_kind)
-        if (
-            len(parts) != 3
-            or not all(part.isidentifier() for part in parts)
-            or parts[1] not in INTERFACE_KINDS
-        ):
-            raise Ros2CliError(
-                "invalid_type",
-                f"The passed {_KIND_WORDS[default_kind]} type is invalid: expected a name such as "
-                f"'{_EXAMPLES[default_kind]}', got {text!r}",
-            )
-        return cls(*parts)
-
-
-_KIND_WORDS = {"msg": "message", "srv": "service", "action": "action"}
-_EXAMPLES = {
-    "msg": "std_msgs/msg/String",
-    "srv": "std_srvs/srv/Trigger",
-    "action": "example_interfaces/action/Fibonacci",
-}
+INDEX = Path("share/ament_index/resource_index")
 
 
 def prefixes() -> list[Path]:
@@ -75,7 +32,7 @@ def resources(kind: str) -> dict[str, Path]:
     """Map the names registered under one kind of the ament index to their prefixes."""
     found: dict[str, Path] = {}
     for prefix in prefixes():
-        folder = prefix / _INDEX / kind
+        folder = prefix / INDEX / kind
         if folder.is_dir():
             for entry in folder.iterdir():
                 if not entry.name.startswith(".") and entry.is_file():
@@ -92,7 +49,7 @@ def package_prefix(package: str) -> Path:
     # The name is looked up as a file: an odd one must not leave the index.
     if package and "/" not in package and not package.startswith("."):
         for prefix in prefixes():
-            if (prefix / _INDEX / "packages" / package).is_file():
+            if (prefix / INDEX / "packages" / package).is_file():
                 return prefix
     raise Ros2CliError("package_not_found", f"Package '{package}' not found")
 
@@ -123,39 +80,6 @@ def find_executable(package: str, executable: str) -> Path:
         listing = "".join(f"\n- {path}" for path in matches)
         raise Ros2CliError("executable_ambiguous", f"Multiple executables found:{listing}")
     return matches[0]
-
-
-def interfaces(kind: str) -> Mapping[str, list[str]]:
-    """Map each package that has interfaces of a kind (`msg`, `srv`, `action`) to its sorted type names."""
-    found: dict[str, list[str]] = {}
-    for package, prefix in sorted(resources("rosidl_interfaces").items()):
-        listing = (prefix / _INDEX / "rosidl_interfaces" / package).read_text(encoding="utf-8")
-        names = {
-            Path(line).stem
-            for line in listing.splitlines()
-            if line.startswith(f"{kind}/") and Path(line).suffix in (f".{kind}", ".idl")
-        }
-        # Services and actions generate messages of their own; these are not interfaces that someone wrote.
-        names = {name for name in names if "_" not in name}
-        if names:
-            found[package] = sorted(names)
-    return found
-
-
-def interface_file(name: InterfaceName) -> Path:
-    """Return the file that defines an interface, the `.msg`, `.srv` or `.action` text before the `.idl`.
-
-    Raises:
-        Ros2CliError: `package_not_found`, or `interface_not_found`.
-    """
-    folder = package_prefix(name.package) / "share" / name.package / name.kind
-    for suffix in (name.kind, "idl"):
-        path = folder / f"{name.type}.{suffix}"
-        if path.is_file():
-            return path
-    raise Ros2CliError(
-        "interface_not_found", f"Unknown interface '{name}': there is no {name.type} in {folder}"
-    )
 
 
 def iter_package_names() -> Iterator[str]:

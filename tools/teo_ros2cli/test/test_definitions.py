@@ -8,15 +8,16 @@ import pytest
 from mcap_ros2._dynamic import generate_dynamic
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
-from teo_ros2cli.definitions import (
+from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.interfaces import (
     SEPARATOR,
+    InterfaceName,
     definition_lines,
     installed_type_hash,
+    interfaces,
     referenced_types,
     schema_of,
 )
-from teo_ros2cli.errors import Ros2CliError
-from teo_ros2cli.packages import InterfaceName, interfaces
 
 
 def computed_hash(name: str, text: str) -> str:

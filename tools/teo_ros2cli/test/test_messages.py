@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import pytest
@@ -23,10 +22,9 @@ from std_msgs.msg import Bool, Byte, ByteMultiArray, Char, Float32, Int8, String
 from trajectory_msgs.msg import JointTrajectory
 
 from teo_ros2cli.errors import Ros2CliError
-from teo_ros2cli.messages.classes import interface_class, message_class
+from teo_ros2cli.interfaces import interface_class, message_class
 from teo_ros2cli.messages.fill import fill_message
-from teo_ros2cli.messages.tree import Abridgement, message_csv, message_tree, select
-from teo_ros2cli.messages.yaml_text import dump, parse, plain
+from teo_ros2cli.messages.tree import Abridgement, dump, message_tree, parse, select
 
 CLASSES = (
     JointTrajectory,
@@ -101,20 +99,6 @@ def test_any_message_survives_printing_and_reading(data: st.DataObject) -> None:
 
 
 # What people type
-
-
-def test_a_nested_trajectory_is_read_from_yaml() -> None:
-    message = filled(
-        JointTrajectory,
-        "{header: {frame_id: base}, joint_names: [a, b], points: ["
-        "{positions: [1, -2.5e-1], time_from_start: {sec: 1, nanosec: 500000000}}, {positions: [.inf, "
-        ".nan]}]}",
-    )
-    assert message.joint_names == ["a", "b"]
-    assert list(message.points[0].positions) == [1.0, -0.25]
-    assert message.points[0].time_from_start.nanosec == 500_000_000
-    assert message.points[1].positions[0] == math.inf
-    assert math.isnan(message.points[1].positions[1])
 
 
 @pytest.mark.parametrize(
@@ -226,11 +210,6 @@ def test_long_values_are_cut_and_hidden_on_request() -> None:
     assert message_tree(String(data="abc"), Abridgement(no_strings=True))["data"] == "<string length: <3>>"
 
 
-def test_csv_has_every_value_in_order() -> None:
-    message = filled(PoseStamped, "{header: {stamp: {sec: 1}, frame_id: m}, pose: {position: {y: 2}}}")
-    assert message_csv(message) == "1,0,m,0.0,2.0,0.0,0.0,0.0,0.0,1.0"
-
-
 def test_a_part_of_a_message_is_selected() -> None:
     message = filled(JointTrajectory, "{joint_names: [a, b], points: [{positions: [1, 2]}]}")
     assert list(select(message, "points[0].positions")) == [1.0, 2.0]
@@ -247,7 +226,3 @@ def test_unknown_types_are_refused(name: str) -> None:
     with pytest.raises(Ros2CliError) as caught:
         message_class(name)
     assert caught.value.code == "invalid_type"
-
-
-def test_plain_gives_what_yaml_means() -> None:
-    assert plain(parse("{a: [1, no, 2.5], b: text}")) == {"a": [1, False, 2.5], "b": "text"}

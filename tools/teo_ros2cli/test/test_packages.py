@@ -7,14 +7,8 @@ from pathlib import Path
 import pytest
 
 from teo_ros2cli.errors import Ros2CliError
-from teo_ros2cli.packages import (
-    InterfaceName,
-    executables,
-    find_executable,
-    interface_file,
-    interfaces,
-    package_prefix,
-)
+from teo_ros2cli.interfaces import InterfaceName, interface_file, interfaces
+from teo_ros2cli.packages import executables, find_executable, package_prefix
 
 
 def add_package(prefix: Path, name: str, **programs: str) -> None:

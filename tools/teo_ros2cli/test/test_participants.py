@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import time
 
-from teo_ros2cli.graph.cli_node import count_participants, look_again
+from teo_ros2cli.graph.discovery import count_participants, look_again
 
 HEADER = "   sl  local_address rem_address   st tx_queue rx_queue tr tm->when retrnsmt   uid  timeout inode\n"
 

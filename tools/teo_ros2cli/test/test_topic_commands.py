@@ -48,9 +48,6 @@ def test_pub_once_waits_for_a_subscription_and_delivers_a_nested_message(graph: 
     assert line.endswith(")])")
 
 
-# =builtin_interfaces.msg.Duration(sec=0, nanosec=0))])")
-
-
 # A subscription in a process of its own: prints what comes.
 LISTENER = """
 import sys
@@ -111,12 +108,12 @@ def test_pub_waits_for_the_acknowledgement_of_a_process_that_is_held_up(
 
 
 @pytest.mark.slow
-def test_pub_so_many_times_with_its_own_name_and_stamp(graph: Any, ros2: Command) -> None:
+def test_pub_so_many_times_with_its_own_name_and_stamp(graph: Any, ros2_here: Command) -> None:
     came: list[JointState] = []
     graph.node.create_subscription(JointState, "state", came.append, 10)
     before = time.time()
     options = ("-t", "3", "-r", "50", "-p", "2", "-n", "me")
-    done = ros2("topic", "pub", *options, "/state", "sensor_msgs/JointState", "{header: auto}")
+    done = ros2_here("topic", "pub", *options, "/state", "sensor_msgs/JointState", "{header: auto}")
     assert done.returncode == 0
     assert re.findall(r"publishing #(\d)", done.stdout) == ["2"]
     graph.wait_until(lambda: len(came) == 3, "three messages came")
@@ -124,10 +121,10 @@ def test_pub_so_many_times_with_its_own_name_and_stamp(graph: Any, ros2: Command
     assert before < stamps[0] < stamps[1] < stamps[2] < time.time()
 
 
-def test_pub_gives_up_waiting_if_told_to(graph: Any, ros2: Command) -> None:
+def test_pub_gives_up_waiting_if_told_to(graph: Any, ros2_here: Command) -> None:
     del graph
     words = ("-w", "2", "--max-wait-time-secs", "0.3", "/x", "std_msgs/msg/String")
-    done = ros2("topic", "pub", "--once", *words)
+    done = ros2_here("topic", "pub", "--once", *words)
     assert done.returncode == 1
     assert done.stderr == "Timed out waiting for subscribers: Expected 2 subscribers but only got 0.\n"
 
@@ -149,10 +146,10 @@ def test_echo_prints_what_pub_sends(graph: Any, start: Any) -> None:
     )
 
 
-def test_echo_finds_the_type_and_fits_the_publishers_quality(graph: Any, ros2: Command) -> None:
+def test_echo_finds_the_type_and_fits_the_publishers_quality(graph: Any, ros2_here: Command) -> None:
     publisher = graph.node.create_publisher(String, "description", latched())
     publisher.publish(String(data="¡hola! " * 30))
-    echo = functools.partial(ros2, "topic", "echo", "--once", "description")
+    echo = functools.partial(ros2_here, "topic", "echo", "--once", "description")
     assert echo("-l", "6").stdout == "data: ¡hola!...\n---\n"
     assert echo("--full-length").stdout == f"data: '{'¡hola! ' * 30}'\n---\n"
     assert echo("--field", "data", "-f").stdout == f"{'¡hola! ' * 30}\n---\n"
@@ -162,10 +159,10 @@ def test_echo_finds_the_type_and_fits_the_publishers_quality(graph: Any, ros2: C
     assert "has no attribute 'nothing'" in refused.stderr
 
 
-def test_echo_in_other_forms(graph: Any, ros2: Command) -> None:
+def test_echo_in_other_forms(graph: Any, ros2_here: Command) -> None:
     publisher = graph.node.create_publisher(JointState, "state", latched())
     publisher.publish(JointState(name=["a", "b"], position=[1.0, 2.0]))
-    echo = functools.partial(ros2, "topic", "echo", "--once", "/state")
+    echo = functools.partial(ros2_here, "topic", "echo", "--once", "/state")
     assert echo("--csv", "--filter", "len(m.name) == 2").stdout == "0,0,,a,b,1.0,2.0\n"
     flow = echo("--flow-style", "--no-arr").stdout
     assert flow.startswith(
@@ -175,13 +172,13 @@ def test_echo_in_other_forms(graph: Any, ros2: Command) -> None:
     assert "Filter 'm.nothing' fails: AttributeError" in echo("--filter", "m.nothing").stderr
 
 
-def test_echo_of_an_unknown_topic_and_after_a_time(graph: Any, ros2: Command) -> None:
+def test_echo_of_an_unknown_topic_and_after_a_time(graph: Any, ros2_here: Command) -> None:
     del graph
-    unknown = ros2("topic", "echo", "/nothing")
+    unknown = ros2_here("topic", "echo", "/nothing")
     assert unknown.returncode == 1
     assert unknown.stdout == "WARNING: topic [/nothing] does not appear to be published yet\n"
     assert unknown.stderr == "Could not determine the type for the passed topic\n"
-    silent = ros2("topic", "echo", "--once", "--timeout", "0.5", "/nothing", "std_msgs/msg/String")
+    silent = ros2_here("topic", "echo", "--once", "--timeout", "0.5", "/nothing", "std_msgs/msg/String")
     assert (silent.returncode, silent.stdout, silent.stderr) == (0, "", "No message came within 0.5 s\n")
 
 

@@ -11,20 +11,15 @@ from typing import Annotated, Any
 from aiohttp import web
 from msgspec import Meta, Struct
 
-from teo_console.api.requests import answering, body
-from teo_console.api.workbench import Workbench
+from teo_console.api.workbench import WithGloss, Workbench
 from teo_console.errors import ConsoleError
-from teo_console.jobs import project_commands
-from teo_console.protocol.from_page import Gloss
+from teo_console.jobs import commands
+from teo_console.server.app import answering, body
 
 # A page of a book [characters]: it is translated sentence by sentence, some 50 ms each.
 _TEXT_LENGTH = 5000
 _SIGN_WRITING = ("signs.json", "drawings.svg")
 _FILM_NAME = re.compile(r"[0-9a-f]{64}\.mp4")
-
-
-class _WantFilm(Struct, frozen=True, forbid_unknown_fields=True):
-    gloss: Gloss
 
 
 class _WantCoverage(Struct, frozen=True, forbid_unknown_fields=True):
@@ -39,12 +34,12 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
         return list((await workbench.signs.signs()).values())
 
     async def want_film(request: web.Request) -> Any:
-        sign = await workbench.signs.get((await body(request, _WantFilm)).gloss)
+        sign = await workbench.signs.get((await body(request, WithGloss)).gloss)
         path = films / f"{sign.motion_hash}.mp4"
         told: dict[str, Any] = {"film": f"/api/films/{path.name}", "job": None}
         if not path.exists():
             films.mkdir(parents=True, exist_ok=True)
-            told["job"] = workbench.jobs.told(workbench.jobs.submit(project_commands.film(sign.gloss, path)))
+            told["job"] = workbench.jobs.told(workbench.jobs.submit(commands.film(sign.gloss, path)))
         return told
 
     async def film(request: web.Request) -> Any:
@@ -58,7 +53,7 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
 
     async def coverage(request: web.Request) -> Any:
         wanted = await body(request, _WantCoverage)
-        return workbench.jobs.told(workbench.jobs.submit(project_commands.coverage(wanted.text)))
+        return workbench.jobs.told(workbench.jobs.submit(commands.coverage(wanted.text)))
 
     return [
         web.get("/api/signs", answering(signs)),

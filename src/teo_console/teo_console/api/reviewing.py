@@ -14,16 +14,14 @@ from typing import Annotated, Any
 from aiohttp import web
 from msgspec import Meta, Struct
 
-from teo_console.api.requests import answering, body
-from teo_console.api.workbench import Preparation, Workbench
+from teo_console.api.workbench import Preparation, Workbench, gloss_key
 from teo_console.errors import ConsoleError
-from teo_console.jobs import project_commands
-from teo_console.protocol.from_page import Gloss
-from teo_console.protocol.to_page import Motion
-from teo_console.review.export import as_csv, as_json
-from teo_console.review.report import report
+from teo_console.jobs import commands
+from teo_console.protocol import Gloss, Motion
+from teo_console.review.report import as_csv, as_json, report
 from teo_console.review.series import CHOICES, Flag, NewItem, Rating, SeriesKind, offered
 from teo_console.review.store import ANSWER_LENGTH, COMMENT_LENGTH, NAME_LENGTH
+from teo_console.server.app import answering, body
 
 # Rows of a planned motion that are kept: every fourth of 100 a second, as films have them.
 _EVERY = 4
@@ -113,7 +111,7 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
         with tempfile.TemporaryDirectory(prefix="teo-reviews-") as folder:
             path = Path(folder) / "reviews.json"
             path.write_bytes(as_json(store.answers()))
-            job = await workbench.jobs.run(project_commands.enter_reviews(path))
+            job = await workbench.jobs.run(commands.enter_reviews(path))
         workbench.signs.changed()
         return job.result
 
@@ -140,7 +138,7 @@ async def _enter_series(workbench: Workbench, wanted: _NewSeries, told: Preparat
         glosses = tuple(random.Random(seed).sample(words, min(wanted.count, len(words))))
     items = []
     for gloss in glosses:
-        sign = await workbench.signs.get("_".join(gloss.upper().split()))
+        sign = await workbench.signs.get(gloss_key(gloss))
         near = await workbench.signs.nearest(sign.gloss) if wanted.choices else ()
         items.append(
             NewItem(
@@ -154,7 +152,7 @@ async def _enter_series(workbench: Workbench, wanted: _NewSeries, told: Preparat
         )
         told.done += 1
     for text in wanted.sentences:
-        job = await workbench.jobs.run(project_commands.translate(text))
+        job = await workbench.jobs.run(commands.translate(text))
         mark = text.strip()[-1:]
         motion = await _planned(workbench, job.output.strip() + (mark if mark in "?!" else ""))
         language = next(iter(listed.values())).language
@@ -167,7 +165,7 @@ async def _planned(workbench: Workbench, glosses: str) -> Motion:
     """The motion of a sentence in the printed form, as the robot would make it."""
     with tempfile.TemporaryDirectory(prefix="teo-plan-") as folder:
         path = Path(folder) / "plan.csv"
-        await workbench.jobs.run(project_commands.plan(glosses, path))
+        await workbench.jobs.run(commands.plan(glosses, path))
         with path.open(encoding="utf-8", newline="") as file:
             header, *rows = csv.reader(file)
     kept = [tuple(map(float, row)) for row in (*rows[::_EVERY], rows[-1])]

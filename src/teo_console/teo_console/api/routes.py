@@ -9,8 +9,8 @@ from typing import Any
 from aiohttp import web
 
 from teo_console.api import dictionary, reviewing, teaching
-from teo_console.api.requests import answering
 from teo_console.api.workbench import Workbench
+from teo_console.server.app import answering
 
 
 def all_routes(workbench: Workbench) -> list[web.RouteDef]:

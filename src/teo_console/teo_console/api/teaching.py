@@ -12,13 +12,13 @@ from typing import Annotated, Any, Literal
 from aiohttp import web
 from msgspec import Meta, Struct
 
-from teo_console.api.requests import answering, body
-from teo_console.api.workbench import Workbench
+from teo_console.api.workbench import WithGloss, Workbench, gloss_key
 from teo_console.errors import ConsoleError
-from teo_console.jobs import project_commands
-from teo_console.jobs.project_commands import Hands, Teaching
+from teo_console.jobs import commands
+from teo_console.jobs.commands import Hands
 from teo_console.jobs.recordings import Recording
-from teo_console.protocol.from_page import Gloss
+from teo_console.protocol import Gloss
+from teo_console.server.app import answering, body
 
 # Terms that a person can give a movement; the last keeps it in the house.
 _Licence = Literal["CC0-1.0", "CC-BY-4.0", "CC-BY-SA-4.0", "for this laboratory alone"]
@@ -40,14 +40,6 @@ class _Accept(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     replace: bool = False
 
 
-class _Keep(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    gloss: Gloss
-
-
-class _Recognise(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    gloss: Gloss
-
-
 def routes(workbench: Workbench) -> list[web.RouteDef]:
     """POST /api/recordings; DELETE ID; below ID: POST try, accept, keep, recognise; GET trial."""
 
@@ -63,16 +55,15 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
 
     async def attempt(request: web.Request) -> Any:
         recording, wanted = _of(request), await body(request, _Try)
-        teaching = Teaching(
-            gloss=_gloss_key(wanted.gloss),
+        command = commands.capture(
+            recording.path,
+            _cache(recording),
+            gloss=gloss_key(wanted.gloss),
             hands=wanted.hands,
             licence="on trial",
-            notes="",
             accept=True,  # a trial shows what a gate speaks against, too
             replace=True,
-        )
-        command = project_commands.capture(
-            recording.path, _cache(recording), teaching, trial=_trial(recording)
+            trial=_trial(recording),
         )
         return workbench.jobs.told(workbench.jobs.submit(command))
 
@@ -91,28 +82,26 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
                 "no_consent",
                 "expected that the person in the film agrees to the terms: without it nothing is kept",
             )
-        teaching = Teaching(
-            gloss=_gloss_key(wanted.gloss),
+        command = commands.capture(
+            recording.path,
+            _cache(recording),
+            gloss=gloss_key(wanted.gloss),
             hands=wanted.hands,
             licence=wanted.licence,
             notes=_consent(wanted),
             accept=wanted.despite_gates,
             replace=wanted.replace,
         )
-        job = workbench.jobs.submit(
-            project_commands.capture(recording.path, _cache(recording), teaching, trial=None),
-            then=workbench.signs.changed,
-        )
-        return workbench.jobs.told(job)
+        return workbench.jobs.told(workbench.jobs.submit(command, then=workbench.signs.changed))
 
     async def keep(request: web.Request) -> Any:
-        name = _gloss_key((await body(request, _Keep)).gloss)
+        name = gloss_key((await body(request, WithGloss)).gloss)
         kept = workbench.recordings.keep(request.match_info["id"], workbench.folders.kept, _file_name(name))
         return {"kept": str(kept)}
 
     async def recognise(request: web.Request) -> Any:
-        recording, wanted = _of(request), await body(request, _Recognise)
-        command = project_commands.recognise(recording.path, _cache(recording), _gloss_key(wanted.gloss))
+        recording, wanted = _of(request), await body(request, WithGloss)
+        command = commands.recognise(recording.path, _cache(recording), gloss_key(wanted.gloss))
         return workbench.jobs.told(workbench.jobs.submit(command))
 
     def _of(request: web.Request) -> Recording:
@@ -148,11 +137,6 @@ def _entry(recording: Recording) -> Path:
     if not entries:
         raise ConsoleError("not_ready", "expected a trial that came to a sign, there is none yet")
     return entries[-1]
-
-
-def _gloss_key(gloss: str) -> str:
-    """As people type it, to as the table has it: capitals, "_" for blanks."""
-    return "_".join(gloss.upper().split())
 
 
 def _file_name(gloss: str) -> str:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""What all of /api works with: jobs, recordings, reviews, and where files are kept."""
+"""What all of /api works with: the signs, jobs, recordings, reviews, and where files are kept."""
 
 from __future__ import annotations
 
@@ -8,15 +8,113 @@ import asyncio
 import os
 import shutil
 import time
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
-from teo_console.api.sign_list import SignList
+import msgspec
+from msgspec import Struct
+
 from teo_console.errors import ConsoleError
+from teo_console.jobs import commands
 from teo_console.jobs.queue import JobQueue
 from teo_console.jobs.recordings import Recordings
+from teo_console.protocol import Gloss
+from teo_console.review.series import CHOICES
 from teo_console.review.store import ReviewStore
+
+# Signs that are taught elsewhere are seen after this long [s]; listing takes a second of a core.
+_FRESH = 30.0
+
+
+class ListedSign(Struct, frozen=True, kw_only=True):
+    """One sign as `lut list --json` tells it."""
+
+    gloss: str
+    language: str
+    kind: str
+    handedness: str
+    duration: float
+    standing: str
+    source: str
+    licence: str
+    handshapes: tuple[str, ...]
+    motion_hash: str
+
+
+class WithGloss(Struct, frozen=True, forbid_unknown_fields=True):
+    """A request that names a sign, and says no more."""
+
+    gloss: Gloss
+
+
+def gloss_key(gloss: str) -> str:
+    """A gloss as people type it, to as the table has it: capitals, "_" for blanks."""
+    return "_".join(gloss.upper().split())
+
+
+class SignList:
+    """Lists the table when it is asked for."""
+
+    def __init__(self, lookups: JobQueue, jobs: JobQueue) -> None:
+        """List nothing yet.
+
+        Args:
+            lookups: Lists the table.
+            jobs: Compares all of its signs, which takes longer.
+        """
+        self._lookups = lookups
+        self._jobs = jobs
+        self._signs: dict[str, ListedSign] = {}
+        self._listed = -_FRESH
+        self._nearest: dict[str, Sequence[str]] = {}
+        self._nearest_of: frozenset[str] = frozenset()
+
+    async def signs(self) -> dict[str, ListedSign]:
+        """Every sign by its gloss.
+
+        Raises:
+            ConsoleError: The command failed.
+        """
+        if time.monotonic() - self._listed > _FRESH:
+            job = await self._lookups.run(commands.list_signs())
+            listed = msgspec.convert(job.result["signs"], list[ListedSign])
+            self._signs = {sign.gloss: sign for sign in listed}
+            self._listed = time.monotonic()
+        return self._signs
+
+    async def get(self, gloss: str) -> ListedSign:
+        """One sign.
+
+        Raises:
+            ConsoleError: "unknown_sign", or the command failed.
+        """
+        signs = await self.signs()
+        if gloss not in signs:
+            raise ConsoleError(
+                "unknown_sign", f"expected a sign of the table, which has {len(signs)}, got {gloss!r}"
+            )
+        return signs[gloss]
+
+    async def nearest(self, gloss: str) -> Sequence[str]:
+        """The words that look most like a sign, the nearest first; none of what is no word.
+
+        Raises:
+            ConsoleError: The command failed.
+        """
+        motions = frozenset(sign.motion_hash for sign in (await self.signs()).values())
+        if motions != self._nearest_of:
+            job = await self._jobs.run(commands.nearest_signs(CHOICES - 1))
+            found: dict[str, list[dict[str, Any]]] = job.result
+            self._nearest = {name: [other["gloss"] for other in near] for name, near in found.items()}
+            self._nearest_of = motions
+        return self._nearest.get(gloss, ())
+
+    def changed(self) -> None:
+        """Forget the list: the table was written to."""
+        self._listed = -_FRESH
+
 
 # Begins the name of a console's folder of recordings; the number of its process ends it.
 _RECORDINGS = "recordings-"
@@ -51,20 +149,19 @@ class Folders:
         )
 
 
+@dataclass
 class Preparation:
-    """Something that takes several commands, one after the other: pages ask how far it is."""
+    """Something that takes several commands, one after the other: pages ask how far it is.
 
-    def __init__(self, total: int) -> None:
-        """Begin.
+    Attributes:
+        total: How many steps there are.
+    """
 
-        Args:
-            total: How many steps there are.
-        """
-        self.done = 0
-        self.total = total
-        self.result = ""
-        self.code = ""
-        self.message = ""
+    total: int
+    done: int = 0
+    result: str = ""
+    code: str = ""
+    message: str = ""
 
 
 class Workbench:

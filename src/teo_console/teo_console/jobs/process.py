@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""One command as a process: started within limits, listened to, and ended with all that it started."""
+"""One run of a command: a process within limits, listened to, and ended with all that it started."""
 
 from __future__ import annotations
 
@@ -8,14 +8,17 @@ import asyncio
 import json
 import math
 import os
+import secrets
 import signal
 import sys
 from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from teo_console.jobs import limited
-from teo_console.jobs.job import Job, Progress
+from teo_console.jobs.commands import Command
 
 # Bytes of standard output that are kept: a hundred times the longest answer of a command.
 _OUTPUT_BYTES = 16 * 1024**2
@@ -25,6 +28,73 @@ _LAST_LINES = 20
 _LINE_BYTES = 64 * 1024
 # From the request to end to the end by force [s]: time to remove temporary files.
 _GRACE = 3.0
+
+
+_State = Literal["waiting", "running", "done", "failed", "cancelled"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Progress:
+    """How far a command says that it is.
+
+    Attributes:
+        what: What it does now; empty before it has said so.
+        done: How much of it is done.
+        total: Of how much; 0 where it does not know.
+    """
+
+    what: str = ""
+    done: int = 0
+    total: int = 0
+
+
+class Job:
+    """One run of a command. Fields change as it goes; `ended` is set when nothing will change any more."""
+
+    def __init__(self, command: Command, number: int, then: Callable[[], None]) -> None:
+        """A job that waits.
+
+        Args:
+            command: What to run.
+            number: Counts the jobs of the queue.
+            then: To be called when it has run.
+        """
+        self.id = secrets.token_urlsafe(12)  # who has it may look at it and cancel it
+        self.command = command
+        self.number = number
+        self.then = then
+        self.state: _State = "waiting"
+        self.progress = Progress()
+        self.result: Any = None
+        """The last JSON value that the command printed."""
+        self.output = ""
+        """All that it printed on standard output."""
+        self.code = ""
+        """Why it failed."""
+        self.message = ""
+        self.ended = asyncio.Event()
+
+    @property
+    def is_over(self) -> bool:
+        """Whether it ended, in whatever way."""
+        return self.state in ("done", "failed", "cancelled")
+
+    def told(self, ahead: int) -> dict[str, Any]:
+        """What a page is told of it.
+
+        Args:
+            ahead: Jobs that come before it.
+        """
+        return {
+            "id": self.id,
+            "name": self.command.name,
+            "state": self.state,
+            "ahead": ahead,
+            "progress": vars(self.progress),
+            "result": self.result,
+            "code": self.code,
+            "message": self.message,
+        }
 
 
 async def run(job: Job, folder: Path) -> None:

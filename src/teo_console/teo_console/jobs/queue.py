@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from teo_console.errors import ConsoleError
-from teo_console.jobs.job import Command, Job
-from teo_console.jobs.process import run
+from teo_console.jobs.commands import Command
+from teo_console.jobs.process import Job, run
 
 # Jobs that wait, over all pages: a class of thirty, each with one.
 MOST_WAITING = 32

@@ -14,7 +14,7 @@ from typing import Any
 
 from teo_console.errors import ConsoleError
 from teo_console.jobs import film_check
-from teo_console.jobs.job import Command, Limits
+from teo_console.jobs.commands import Command, Limits
 from teo_console.jobs.queue import JobQueue
 
 # Bytes of a recording: a minute of a telephone's film at 8 Mbit/s; a bag of skeletons is a hundredth of it.

@@ -23,16 +23,15 @@ from teo_console.api.routes import all_routes
 from teo_console.api.workbench import Folders, Workbench
 from teo_console.errors import ConsoleError
 from teo_console.node import messages
-from teo_console.node.bridge import Bridge
 from teo_console.node.observer import Observer
 from teo_console.node.parameters import PARAMETERS
 from teo_console.node.robot_client import RobotClient
-from teo_console.protocol.to_page import Situation, Welcome, encode, encode_pose
+from teo_console.protocol import Situation, Welcome, encode, encode_pose
 from teo_console.server.access import LOOPBACK_NAMES, Access
 from teo_console.server.app import make_app
 from teo_console.server.hub import Hub
-from teo_console.server.thread import ServerThread
-from teo_console.situation.shared_situation import SharedSituation
+from teo_console.server.thread import Bridge, ServerThread
+from teo_console.situation import SharedSituation
 
 # How often pages are told what has changed [Hz]: often enough that nothing seems late.
 _SITUATION_RATE = 10.0

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import re
+from typing import Any, get_args
 
 from msgspec.structs import replace
 from std_srvs.srv import Trigger
@@ -18,7 +19,7 @@ from teo_sign_msgs.msg import (
 )
 from teo_sign_msgs.srv import GetSign, ListQueue
 
-from teo_console.protocol.to_page import (
+from teo_console.protocol import (
     Answer,
     Caption,
     ExecutorState,
@@ -32,51 +33,20 @@ from teo_console.protocol.to_page import (
     Sign,
     TokenKind,
 )
-from teo_console.situation.sentences import PathReport, SigningReport
+from teo_console.sentences import PathReport, SigningReport
 
-_KINDS: dict[int, TokenKind] = {
-    SignToken.KIND_LEXICAL: "sign",
-    SignToken.KIND_LETTER: "letter",
-    SignToken.KIND_NUMBER: "number",
-    SignToken.KIND_PAUSE: "pause",
-}
-_ORIGINS: dict[int, Origin] = {
-    SignToken.ORIGIN_UNKNOWN: "unknown",
-    SignToken.ORIGIN_MODEL: "model",
-    SignToken.ORIGIN_LEMMA: "lemma",
-    SignToken.ORIGIN_SYNONYM: "synonym",
-    SignToken.ORIGIN_SPELLED: "spelled",
-    SignToken.ORIGIN_NUMBER: "number",
-    SignToken.ORIGIN_REPAIRED: "repaired",
-    SignToken.ORIGIN_WORD_LIST: "word_list",
-    SignToken.ORIGIN_PAUSE: "pause",
-    SignToken.ORIGIN_PARAPHRASE: "paraphrase",
-    SignToken.ORIGIN_HYPERNYM: "hypernym",
-    SignToken.ORIGIN_DRAFT: "draft",
-}
-_TYPES: dict[int, SentenceType] = {
-    SignSentence.TYPE_STATEMENT: "statement",
-    SignSentence.TYPE_YES_NO_QUESTION: "yes_no_question",
-    SignSentence.TYPE_WH_QUESTION: "wh_question",
-    SignSentence.TYPE_EXCLAMATION: "exclamation",
-}
-_EXECUTOR: dict[int, ExecutorState] = {
-    ExecutorStatus.STATE_IDLE: "idle",
-    ExecutorStatus.STATE_SIGNING: "signing",
-    ExecutorStatus.STATE_WAITING: "waiting",
-    ExecutorStatus.STATE_REFUSED: "refused",
-    ExecutorStatus.STATE_PAUSED: "paused",
-    ExecutorStatus.STATE_STOPPED: "stopped",
-    ExecutorStatus.STATE_FAULT: "fault",
-}
-_MODES: dict[int, RobotMode] = {
-    DriverState.MODE_HOLDING: "holding",
-    DriverState.MODE_MOVING: "moving",
-    DriverState.MODE_PAUSED: "paused",
-    DriverState.MODE_STOPPED: "stopped",
-    DriverState.MODE_INACTIVE: "inactive",
-    DriverState.MODE_FAULT: "fault",
-}
+
+def _words(message: type, prefix: str, words: Any) -> dict[int, Any]:
+    """The protocol's words by the numbers of a message's constants, as STATE_IDLE for "idle"."""
+    numbers = {word: getattr(message, f"{prefix}_{word.upper()}", None) for word in get_args(words)}
+    return {number: word for word, number in numbers.items() if number is not None}
+
+
+_KINDS: dict[int, TokenKind] = {SignToken.KIND_LEXICAL: "sign", **_words(SignToken, "KIND", TokenKind)}
+_ORIGINS: dict[int, Origin] = _words(SignToken, "ORIGIN", Origin)
+_TYPES: dict[int, SentenceType] = _words(SignSentence, "TYPE", SentenceType)
+_EXECUTOR: dict[int, ExecutorState] = _words(ExecutorStatus, "STATE", ExecutorState)
+_MODES: dict[int, RobotMode] = _words(DriverState, "MODE", RobotMode)
 
 # A refusal of driver or executor: its stable reason, and a sentence for people.
 _REFUSAL = re.compile(r"([a-z][a-z0-9_]*): (.+)", re.DOTALL)

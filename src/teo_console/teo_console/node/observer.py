@@ -17,9 +17,8 @@ from teo_sign_msgs.msg import DriverState, ExecutorStatus, SignSentence, Transla
 from teo_common.diagnostics import Level
 from teo_console.errors import ConsoleError
 from teo_console.node import messages
-from teo_console.protocol.to_page import NodeRole
-from teo_console.situation.liveness import ROLES
-from teo_console.situation.shared_situation import SharedSituation
+from teo_console.protocol import NodeRole
+from teo_console.situation import ROLES, SharedSituation
 
 # The topic by whose publisher a node is known, whatever it is called.
 _TOPICS: dict[NodeRole, str] = {

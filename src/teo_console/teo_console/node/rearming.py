@@ -7,8 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from teo_console.protocol.from_page import Command, Order
-from teo_console.protocol.to_page import Answer
+from teo_console.protocol import Answer, Command, Order
 
 Reply = Callable[[Answer], None]
 

@@ -20,7 +20,8 @@ from teo_sign_msgs.srv import GetSign, ListQueue
 from teo_console.errors import ConsoleError
 from teo_console.node import messages
 from teo_console.node.rearming import Rearming, Reply
-from teo_console.protocol.from_page import (
+from teo_console.protocol import (
+    Answer,
     Command,
     ConfirmSpoken,
     DiscardSpoken,
@@ -31,8 +32,7 @@ from teo_console.protocol.from_page import (
     SignGlosses,
     SignText,
 )
-from teo_console.protocol.to_page import Answer
-from teo_console.situation.shared_situation import SharedSituation
+from teo_console.situation import SharedSituation
 
 # How often a request to re-arm that is kept is tried again [s]: the robot brakes for twice as long.
 _REARMING_PERIOD = 0.1

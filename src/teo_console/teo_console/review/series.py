@@ -10,7 +10,7 @@ from typing import Literal
 
 from msgspec import Struct
 
-from teo_console.protocol.to_page import Motion
+from teo_console.protocol import Motion
 
 SeriesKind = Literal["review", "comprehension"]
 ItemKind = Literal["sign", "sentence"]

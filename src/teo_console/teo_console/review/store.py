@@ -15,7 +15,7 @@ import msgspec
 
 from teo_common.text_folding import folded
 from teo_console.errors import ConsoleError
-from teo_console.protocol.to_page import Motion
+from teo_console.protocol import Motion
 from teo_console.review.series import (
     Answer,
     Flag,

@@ -1,17 +1,20 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The web application: the page's files, /api, and the websocket."""
+"""The web application: the page's files, /api, and the websocket; how a request is read and answered."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import functools
+import xml.etree.ElementTree as ET
+from collections.abc import Awaitable, Callable, Sequence
 from pathlib import Path
+from typing import Any, TypeVar
 
+import msgspec
 from aiohttp import web
 
 from teo_console.errors import ConsoleError
 from teo_console.server.access import Access, guard, refusal
-from teo_console.server.drawable_urdf import drawable_urdf
 from teo_console.server.hub import Hub
 
 # Bytes of a request's body: JSON of a form. A route that takes films reads a stream, with a limit of its own.
@@ -63,3 +66,77 @@ def make_app(
 
     app.on_shutdown.append(send_pages_away)
     return app
+
+
+_Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
+_T = TypeVar("_T")
+
+# What is not here is 400: the request was not right.
+_STATUS = {
+    "busy": 503,
+    "too_large": 413,
+    "unknown_job": 404,
+    "unknown_recording": 404,
+    "unknown_series": 404,
+    "unknown_item": 404,
+    "unknown_sign": 404,
+    "not_ready": 409,
+    "answered": 409,
+    "not_answered": 409,
+}
+
+
+def answering(handler: Callable[[web.Request], Awaitable[Any]]) -> _Handler:
+    """Make a handler's value a JSON answer, and what it refuses an error with code and sentence."""
+
+    @functools.wraps(handler)
+    async def answered(request: web.Request) -> web.StreamResponse:
+        try:
+            value = await handler(request)
+        except ConsoleError as error:
+            return refusal(error, _STATUS.get(error.code, 400))
+        if isinstance(value, web.StreamResponse):
+            return value
+        return web.Response(body=msgspec.json.encode(value), content_type="application/json")
+
+    return answered
+
+
+async def body(request: web.Request, kind: type[_T]) -> _T:
+    """A request's JSON as a value of a type.
+
+    Raises:
+        ConsoleError: "malformed": it is none; the sentence says where it is wrong.
+    """
+    try:
+        return msgspec.json.decode(await request.read(), type=kind)
+    except (msgspec.DecodeError, UnicodeError, RecursionError) as error:
+        raise ConsoleError("malformed", f"expected JSON of another form: {error}") from error
+
+
+def drawable_urdf(text: str) -> str:
+    """A URDF in which the plain shapes that count in a collision stand for meshes.
+
+    Args:
+        text: As the driver published it. What is no XML comes back as it is: the page says that it has no
+            robot.
+    """
+    try:
+        robot = ET.fromstring(text)
+    except ET.ParseError:
+        return text
+    changed = False
+    for link in robot.iter("link"):
+        meshes = [visual for visual in link.findall("visual") if visual.find("geometry/mesh") is not None]
+        if not meshes:
+            continue
+        changed = True
+        for visual in meshes:
+            link.remove(visual)
+        for collision in link.findall("collision"):
+            if collision.find("geometry/mesh") is None:
+                shape = ET.SubElement(link, "visual")
+                shape.extend(collision)
+                material = ET.SubElement(shape, "material", name="plain_shape")
+                ET.SubElement(material, "color", rgba="0.75 0.77 0.8 1")
+    return ET.tostring(robot, encoding="unicode") if changed else text

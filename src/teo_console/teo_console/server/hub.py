@@ -12,8 +12,7 @@ from collections.abc import Awaitable, Callable
 from aiohttp import WSCloseCode, WSMsgType, web
 
 from teo_console.errors import ConsoleError
-from teo_console.protocol.from_page import MESSAGE_BYTES, FromPage, decode
-from teo_console.protocol.to_page import Answer, encode
+from teo_console.protocol import MESSAGE_BYTES, Answer, FromPage, decode, encode
 from teo_console.server.access import refusal
 
 # A class of thirty, each with a telephone and a computer, and some to spare.
@@ -94,7 +93,7 @@ class Hub:
             await page.socket.close(code=WSCloseCode.GOING_AWAY)
 
     async def _listen(self, page: _Page) -> None:
-        limit = RateLimit(rate=_RATE, burst=_BURST)
+        limit = _RateLimit(rate=_RATE, burst=_BURST)
         malformed = 0
         async for message in page.socket:
             try:
@@ -168,7 +167,7 @@ class _Page:
             pass  # it went while it was sent to; `handle` notices
 
 
-class RateLimit:
+class _RateLimit:
     """A token bucket: a burst, then a steady rate. Times are from a clock that nobody sets [s]."""
 
     def __init__(self, *, rate: float, burst: int) -> None:

@@ -1,19 +1,22 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The server in a thread of its own, with its own event loop, beside the node's."""
+"""The server in a thread with an event loop of its own, beside the node's, and requests to that."""
 
 from __future__ import annotations
 
 import asyncio
 import threading
 from collections.abc import Callable
+from concurrent.futures import Future
+from queue import Empty, SimpleQueue
 
 from aiohttp import web
 
 from teo_console.errors import ConsoleError
+from teo_console.protocol import Answer, FromPage
 
 # Longest that starting and ending may take [s]: both take a fraction of a second.
-_PATIENCE = 10.0
+_START_TIMEOUT = 10.0
 
 
 class ServerThread:
@@ -36,7 +39,7 @@ class ServerThread:
         self._thread.start()
         starting = asyncio.run_coroutine_threadsafe(self._start(make_app, address, port), self.loop)
         try:
-            self.port = starting.result(_PATIENCE)
+            self.port = starting.result(_START_TIMEOUT)
         except OSError as error:
             self.close()
             raise ConsoleError(
@@ -54,9 +57,9 @@ class ServerThread:
         """End, and wait for it."""
         if self.loop.is_closed():
             return
-        asyncio.run_coroutine_threadsafe(self._end(), self.loop).result(_PATIENCE)
+        asyncio.run_coroutine_threadsafe(self._end(), self.loop).result(_START_TIMEOUT)
         self.loop.call_soon_threadsafe(self.loop.stop)
-        self._thread.join(_PATIENCE)
+        self._thread.join(_START_TIMEOUT)
         self.loop.close()
 
     async def _start(self, make_app: Callable[[], web.Application], address: str, port: int) -> int:
@@ -79,3 +82,44 @@ class ServerThread:
     def _run(self) -> None:
         asyncio.set_event_loop(self.loop)
         self.loop.run_forever()
+
+
+# A service that has not answered by then is not waited for any longer [s]: they answer within milliseconds.
+_ANSWER_TIMEOUT = 3.0
+
+
+class Bridge:
+    """Hands each request to the node, and waits for its answer."""
+
+    def __init__(self) -> None:
+        """Begin without a request."""
+        self._asked: SimpleQueue[tuple[FromPage, Future[Answer]]] = SimpleQueue()
+        self.wake: Callable[[], None] = lambda: None  # the node's, once it can be woken
+
+    async def ask(self, request: FromPage) -> Answer:
+        """Have a request served; in the server's thread."""
+        answered: Future[Answer] = Future()
+        self._asked.put((request, answered))
+        self.wake()
+        try:
+            return await asyncio.wait_for(asyncio.wrap_future(answered), _ANSWER_TIMEOUT)
+        except TimeoutError:
+            sentence = (
+                f"expected an answer within {_ANSWER_TIMEOUT:g} s, none came: "
+                "the node that serves it may be dead"
+            )
+            return Answer(id=request.id, success=False, code="no_answer", message=sentence)
+
+    def serve_all(self, serve: Callable[[FromPage, Callable[[Answer], None]], None]) -> None:
+        """Serve what was asked; in the node's thread."""
+        while True:
+            try:
+                request, answered = self._asked.get_nowait()
+            except Empty:
+                return
+
+            def reply(answer: Answer, answered: Future[Answer] = answered) -> None:
+                if answered.set_running_or_notify_cancel():  # else it was waited for too long
+                    answered.set_result(answer)
+
+            serve(request, reply)

@@ -14,7 +14,8 @@ from pathlib import Path
 import pytest
 
 from teo_console.errors import ConsoleError
-from teo_console.jobs.job import Command, Job, Limits
+from teo_console.jobs.commands import Command, Limits
+from teo_console.jobs.process import Job
 from teo_console.jobs.queue import MOST_WAITING, JobQueue
 
 MEGABYTE = 1024**2

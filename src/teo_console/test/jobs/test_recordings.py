@@ -150,15 +150,3 @@ def test_what_an_earlier_run_left_behind_is_deleted(tmp_path: Path) -> None:
     left.touch()
     with_recordings(tmp_path / "recordings", lambda _: asyncio.sleep(0))
     assert not left.exists()
-
-
-def test_what_is_kept_on_purpose_stays(tmp_path: Path) -> None:
-    kept: list[Path] = []
-
-    async def act(recordings: Recordings) -> None:
-        taken = await recordings.receive(pieces(BAG), 0.0)
-        kept.append(recordings.keep(taken.id, tmp_path / "kept", "SALUDAR"))
-
-    with_recordings(tmp_path / "recordings", act)
-    assert kept[0].read_bytes() == BAG
-    assert kept[0].name.startswith("SALUDAR-")

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from teo_console.review.figures import krippendorff_alpha, wilson
+from teo_console.review.report import krippendorff_alpha, wilson
 
 # K. Krippendorff, "Computing Krippendorff's alpha-reliability" (2011), example C: four observers, twelve
 # units, a dot where one has not looked.

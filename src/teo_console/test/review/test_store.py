@@ -16,9 +16,8 @@ import msgspec
 import pytest
 
 from teo_console.errors import ConsoleError
-from teo_console.protocol.to_page import Motion
-from teo_console.review.export import as_csv, as_json
-from teo_console.review.report import report
+from teo_console.protocol import Motion
+from teo_console.review.report import as_csv, as_json, report
 from teo_console.review.series import CHOICES, NewItem, offered
 from teo_console.review.store import ReviewStore
 

@@ -22,8 +22,8 @@ from teo_ros2cli.bags.metadata import (
     parse_offered_qos,
     read_metadata,
 )
-from teo_ros2cli.definitions import Schema
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.interfaces import Schema
 
 
 @dataclass(frozen=True)

@@ -14,21 +14,21 @@ from typing import Any
 from teo_common.mcap_salvage import StoredMessage
 from teo_ros2cli.bags.bag import Bag, open_bag, require_bag
 from teo_ros2cli.bags.metadata import NO_START, BagMetadata, FileRecord, TopicRecord
-from teo_ros2cli.bags.qos_record import DURATIONS, QosRecord
-from teo_ros2cli.definitions import Schema
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.interfaces import Schema
+from teo_ros2cli.qos import DURATIONS, QosRecord
 
 # What a latched topic of ROS 1 offers in ROS 2.
 _LATCHED = QosRecord(depth=1, durability="transient_local")
 
 
-def is_foreign(path: Path) -> bool:
+def _is_foreign(path: Path) -> bool:
     """Tell by the names of its files whether a bag is one of ROS 1 or in SQLite."""
     return path.suffix in (".bag", ".db3") or (path.is_dir() and any(path.glob("*.db3*")))
 
 
 @dataclass(frozen=True)
-class ForeignBag(Bag):
+class _ForeignBag(Bag):
     """A bag whose messages come as those of ROS 2 Jazzy, whatever they are stored as."""
 
     def schemas(self) -> dict[str, Schema]:
@@ -70,11 +70,11 @@ class ForeignBag(Bag):
 
 
 def open_any_bag(path: Path, *, verify: bool = False) -> Bag:
-    """Open a bag of any kind: one of ROS 2 in MCAP as `open_bag` does, others as `open_foreign`."""
-    return open_foreign(path) if is_foreign(path) else open_bag(path, verify=verify)
+    """Open a bag of any kind: one of ROS 2 in MCAP as `open_bag` does, others as `_open_foreign`."""
+    return _open_foreign(path) if _is_foreign(path) else open_bag(path, verify=verify)
 
 
-def open_foreign(path: Path) -> ForeignBag:
+def _open_foreign(path: Path) -> _ForeignBag:
     """Open a bag of ROS 1 (`.bag`), or of ROS 2 in SQLite (a directory or a `.db3`).
 
     Raises:
@@ -101,7 +101,7 @@ def open_foreign(path: Path) -> ForeignBag:
             ros_distro="" if reader.is2 else "noetic",
         )
     files = tuple(sorted(path.glob("*.db3*"))) if path.is_dir() else (path,)
-    return ForeignBag(path, files, metadata, ())
+    return _ForeignBag(path, files, metadata, ())
 
 
 @contextlib.contextmanager

@@ -13,8 +13,8 @@ from typing import Any
 import yaml
 
 from teo_common.atomic_files import write_atomically
-from teo_ros2cli.bags.qos_record import QosRecord
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.qos import QosRecord
 
 FILE_NAME = "metadata.yaml"
 VERSION = 9

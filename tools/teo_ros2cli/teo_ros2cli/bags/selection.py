@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Which topics to record."""
+"""Which topics are recorded, played or converted."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ def is_hidden(name: str) -> bool:
 
 @dataclass(frozen=True)
 class TopicSelection:
-    """Decides by name and type whether a topic is recorded.
+    """Decides by name and type whether a topic is taken.
 
     Args:
         everything: All topics, hidden ones apart.
-        names: Full names that are recorded, hidden or not.
-        types: Types whose topics are recorded.
-        pattern: Topics whose name contains a match are recorded.
-        excluded_names: Full names that are not recorded, whatever else says so.
+        names: Full names that are taken, hidden or not.
+        types: Types whose topics are taken.
+        pattern: Topics whose name contains a match are taken.
+        excluded_names: Full names that are not taken, whatever else says so.
         excluded_types: Types whose topics are not.
         excluded_pattern: Topics whose name contains a match are not.
         include_hidden: Hidden topics count as others do.
@@ -38,7 +38,7 @@ class TopicSelection:
     include_hidden: bool = False
 
     def accepts(self, name: str, type_name: str) -> bool:
-        """Tell whether a topic is recorded."""
+        """Tell whether a topic is taken."""
         if name in self.excluded_names or type_name in self.excluded_types:
             return False
         if self.excluded_pattern is not None and self.excluded_pattern.search(name):
@@ -53,5 +53,5 @@ class TopicSelection:
 
     @property
     def only_names(self) -> bool:
-        """True if all that can be recorded is named, so that looking for more may end once it is found."""
+        """True if all that can be taken is named, so that looking for more may end once it is found."""
         return not self.everything and not self.types and self.pattern is None

@@ -9,23 +9,19 @@ import signal
 import textwrap
 from typing import Any
 
-from teo_ros2cli.cli.dispatch import Entry
-from teo_ros2cli.cli.graph_view import (
+from teo_ros2cli.cli.options import (
     NamesAndTypes,
+    add_graph_arguments,
     add_listing_arguments,
+    add_values_argument,
+    full_name,
+    given_values,
     known_graph,
     print_names,
     print_types,
 )
-from teo_ros2cli.cli.options import add_graph_arguments, add_values_argument, full_name, given_values
 from teo_ros2cli.errors import Ros2CliError
 
-VERBS = {
-    "info": Entry(__name__, "Print information about an action", "info"),
-    "list": Entry(__name__, "Output a list of action names", "list"),
-    "send_goal": Entry(__name__, "Send an action goal", "send_goal"),
-    "type": Entry(__name__, "Print an action's type", "type"),
-}
 # Numbers of action_msgs/msg/GoalStatus.
 _STATUS = {
     0: "UNKNOWN",
@@ -123,7 +119,7 @@ def run_send_goal(options: argparse.Namespace) -> int:
     Raises:
         Ros2CliError: `invalid_type`, `invalid_yaml`, `invalid_field`, `goal_rejected`.
     """
-    from teo_ros2cli.messages.classes import interface_class
+    from teo_ros2cli.interfaces import interface_class
     from teo_ros2cli.messages.fill import fill_from_text
 
     cls = interface_class(options.action_type, "action")
@@ -132,8 +128,7 @@ def run_send_goal(options: argparse.Namespace) -> int:
 
     from rclpy.action import ActionClient
 
-    from teo_ros2cli.graph.calls import wait_for
-    from teo_ros2cli.graph.cli_node import cli_node
+    from teo_ros2cli.graph.cli_node import cli_node, wait_for
 
     # SIGINT is to cancel the goal, which takes a context that lives on.
     with cli_node(own_signals=True) as node:
@@ -157,7 +152,7 @@ def run_send_goal(options: argparse.Namespace) -> int:
 
 def _result(node: Any, handle: Any) -> Any:
     """Wait for a goal's result; an interruption cancels the goal, a second one ends the waiting."""
-    from teo_ros2cli.graph.calls import wait_for
+    from teo_ros2cli.graph.cli_node import wait_for
 
     future = handle.get_result_async()
     try:
@@ -170,7 +165,6 @@ def _result(node: Any, handle: Any) -> Any:
 
 
 def _indented(message: Any) -> str:
-    from teo_ros2cli.messages.tree import message_tree
-    from teo_ros2cli.messages.yaml_text import dump
+    from teo_ros2cli.messages.tree import dump, message_tree
 
     return textwrap.indent(dump(message_tree(message)), "    ")

@@ -10,8 +10,9 @@ from collections.abc import Iterable, Mapping
 import argcomplete
 from argcomplete.completers import BaseCompleter, FilesCompleter
 
-from teo_ros2cli.cli.dispatch import Entry, add_arguments, verbs_of
-from teo_ros2cli.packages import INTERFACE_KINDS, executables, interfaces, iter_package_names
+from teo_ros2cli.cli.dispatch import Entry, Group, add_arguments
+from teo_ros2cli.interfaces import INTERFACE_KINDS, interfaces
+from teo_ros2cli.packages import executables, iter_package_names
 
 # Arguments by name whose values are known without a graph. Names of topics and nodes are not completed: to
 # find them takes a second at each press of the key, as there is no daemon that knows them already.
@@ -24,22 +25,21 @@ _KINDS: Mapping[str, tuple[str, ...]] = {
 }
 
 
-def complete(commands: Mapping[str, Entry]) -> None:
+def complete(commands: Mapping[str, Entry | Group]) -> None:
     """Print what the word under the cursor may become, as the shell asks for it, and exit."""
     parser = argparse.ArgumentParser(prog="ros2")
     _add_choices(parser, commands)
     argcomplete.autocomplete(parser, always_complete_options=False, default_completer=_Values())
 
 
-def _add_choices(parser: argparse.ArgumentParser, entries: Mapping[str, Entry]) -> None:
+def _add_choices(parser: argparse.ArgumentParser, entries: Mapping[str, Entry | Group]) -> None:
     choices = parser.add_subparsers()
     for name, entry in entries.items():
         chosen = choices.add_parser(name, help=entry.summary)
-        verbs = verbs_of(entry)
-        if verbs is None:
-            add_arguments(chosen, entry)
+        if isinstance(entry, Group):
+            _add_choices(chosen, entry.entries)
         else:
-            _add_choices(chosen, verbs)
+            add_arguments(chosen, entry)
 
 
 class _Values(BaseCompleter):

@@ -8,18 +8,10 @@ import argparse
 from collections.abc import Iterator
 from typing import Any
 
-from teo_ros2cli.cli.dispatch import Entry
-from teo_ros2cli.cli.graph_view import known_graph
-from teo_ros2cli.cli.options import add_graph_arguments, assignment, full_name, positive_int
+from teo_ros2cli.cli.options import add_graph_arguments, assignment, full_name, known_graph, positive_int
 from teo_ros2cli.errors import Ros2CliError
 from teo_ros2cli.packages import resources
 
-VERBS = {
-    "list": Entry(__name__, "Output a list of running containers and components", "list"),
-    "load": Entry(__name__, "Load a component into a container node", "load"),
-    "types": Entry(__name__, "Output a list of components registered in the ament index", "types"),
-    "unload": Entry(__name__, "Unload a component from a container node", "unload"),
-}
 _LISTING = "/_container/list_nodes"
 # Time that a container gets to list or to end its nodes [s], as a node for its parameters.
 _TIMEOUT = 5.0
@@ -168,8 +160,8 @@ def _call(
     node: Any, container: str, kind: str, service: str, *, timeout: float = _TIMEOUT, **request: Any
 ) -> Any:
     """Call a container's service, such as `list_nodes`, of a type of composition_interfaces/srv."""
-    from teo_ros2cli.graph.calls import call
-    from teo_ros2cli.messages.classes import interface_class
+    from teo_ros2cli.graph.cli_node import call
+    from teo_ros2cli.interfaces import interface_class
 
     try:
         cls = interface_class(f"composition_interfaces/srv/{kind}", "srv")

@@ -9,43 +9,47 @@ import importlib
 import signal
 import sys
 from collections.abc import Mapping, Sequence
+from types import ModuleType
 from typing import NamedTuple
 
 from teo_ros2cli.errors import Ros2CliError
 
 
 class Entry(NamedTuple):
-    """Something to choose.
+    """A command or a verb of one.
 
     Args:
-        module: The module that does it. It has either `VERBS`, the entries to choose from next, or
-            `run(options) -> int` and, unless there are no arguments, `add_arguments(parser)`.
         summary: One line on what it does.
-        verb: For a module with several small verbs: the functions are `run_<verb>` and
-            `add_<verb>_arguments`.
+        target: `module:verb`, a module of `teo_ros2cli.cli` with the functions `run_<verb>(options) -> int`
+            and, unless there are no arguments, `add_<verb>_arguments(parser)`; or `module` alone, with `run`
+            and `add_arguments`. It is loaded when it is called.
     """
 
-    module: str
     summary: str
-    verb: str = ""
+    target: str
 
 
-def choose(
-    program: str, description: str, kind: str, entries: Mapping[str, Entry], words: Sequence[str]
-) -> int:
+class Group(NamedTuple):
+    """A command with verbs, or all commands: what it is for, and its entries by name."""
+
+    summary: str
+    entries: Mapping[str, Entry | Group]
+
+
+def choose(program: str, kind: str, group: Group, words: Sequence[str]) -> int:
     """Run the entry that the first word names with the other words, and return the exit status.
 
     Args:
         program: The command line up to here, for the usage.
-        description: What the program is for.
         kind: What the entries are called: `command` or `verb`.
-        entries: By name.
+        group: What there is to choose from.
         words: The rest of the command line.
     """
+    entries = group.entries
     metavar = f"Call `{program} <{kind}> -h` for more detailed usage."
     parser = argparse.ArgumentParser(
         prog=program,
-        description=description,
+        description=group.summary,
         epilog=metavar,
         usage=f"{program} [-h] {metavar} ...",
         formatter_class=_ListingFormatter,
@@ -65,7 +69,10 @@ def choose(
             file=sys.stderr,
         )
         return 2
-    return _call(f"{program} {name}", entries[name], list(words[1:]))
+    chosen = entries[name]
+    if isinstance(chosen, Group):
+        return choose(f"{program} {name}", "verb", chosen, words[1:])
+    return _call(f"{program} {name}", chosen, words[1:])
 
 
 class _ListingFormatter(argparse.HelpFormatter):
@@ -79,23 +86,20 @@ class _ListingFormatter(argparse.HelpFormatter):
 
 def add_arguments(parser: argparse.ArgumentParser, entry: Entry) -> None:
     """Add an entry's own arguments to a parser, if it has any."""
-    add = f"add_{entry.verb}_arguments" if entry.verb else "add_arguments"
-    getattr(importlib.import_module(entry.module), add, lambda _parser: None)(parser)
+    module, verb = _target(entry)
+    getattr(module, f"add_{verb}_arguments" if verb else "add_arguments", lambda _parser: None)(parser)
 
 
-def verbs_of(entry: Entry) -> Mapping[str, Entry] | None:
-    """Return what there is to choose from after an entry; None if it is chosen to its end."""
-    verbs: Mapping[str, Entry] | None = getattr(importlib.import_module(entry.module), "VERBS", None)
-    return None if entry.verb else verbs
+def _target(entry: Entry) -> tuple[ModuleType, str]:
+    module, _, verb = entry.target.partition(":")
+    return importlib.import_module(f"teo_ros2cli.cli.{module}"), verb
 
 
-def _call(program: str, entry: Entry, words: list[str]) -> int:
-    verbs = verbs_of(entry)
-    if verbs is not None:
-        return choose(program, entry.summary, "verb", verbs, words)
+def _call(program: str, entry: Entry, words: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(prog=program, description=entry.summary)
     add_arguments(parser, entry)
-    run = getattr(importlib.import_module(entry.module), f"run_{entry.verb}" if entry.verb else "run")
+    module, verb = _target(entry)
+    run = getattr(module, f"run_{verb}" if verb else "run")
     try:
         return int(run(parser.parse_args(words)))
     except Ros2CliError as error:

@@ -7,18 +7,10 @@ from __future__ import annotations
 import argparse
 import sys
 
-from teo_ros2cli.cli.dispatch import Entry
-from teo_ros2cli.definitions import definition_lines
 from teo_ros2cli.errors import Ros2CliError
-from teo_ros2cli.packages import InterfaceName, interface_file, interfaces, package_prefix
+from teo_ros2cli.interfaces import InterfaceName, definition_lines, interface_file, interfaces
+from teo_ros2cli.packages import package_prefix
 
-VERBS = {
-    "list": Entry(__name__, "List all interface types available", "list"),
-    "package": Entry(__name__, "Output a list of available interface types within one package", "package"),
-    "packages": Entry(__name__, "Output a list of packages that provide interfaces", "packages"),
-    "proto": Entry(__name__, "Output an interface prototype", "proto"),
-    "show": Entry(__name__, "Output the interface definition", "show"),
-}
 _TITLES = {"msg": "Messages", "srv": "Services", "action": "Actions"}
 _OPTIONS = (("-m", "--only-msgs", "msg"), ("-s", "--only-srvs", "srv"), ("-a", "--only-actions", "action"))
 
@@ -77,9 +69,8 @@ def add_proto_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run_proto(options: argparse.Namespace) -> int:
     """Print a message, request or goal with its default values as YAML, to be changed and passed on."""
-    from teo_ros2cli.messages.classes import interface_class
-    from teo_ros2cli.messages.tree import message_tree
-    from teo_ros2cli.messages.yaml_text import dump
+    from teo_ros2cli.interfaces import interface_class
+    from teo_ros2cli.messages.tree import dump, message_tree
 
     name = InterfaceName.parse(options.type)
     cls = interface_class(str(name), name.kind)

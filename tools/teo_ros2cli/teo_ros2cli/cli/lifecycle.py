@@ -9,17 +9,16 @@ import sys
 from typing import Any
 
 from teo_ros2cli.bags.selection import is_hidden
-from teo_ros2cli.cli.dispatch import Entry
-from teo_ros2cli.cli.graph_view import add_node_listing_arguments, known_graph, node_names, print_nodes
-from teo_ros2cli.cli.options import add_graph_arguments, full_name
+from teo_ros2cli.cli.options import (
+    add_graph_arguments,
+    add_node_listing_arguments,
+    full_name,
+    known_graph,
+    print_nodes,
+)
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.graph.discovery import node_names
 
-VERBS = {
-    "get": Entry(__name__, "Get lifecycle state for one or more nodes", "get"),
-    "list": Entry(__name__, "Output a list of available transitions", "list"),
-    "nodes": Entry(__name__, "Output a list of nodes with lifecycle", "nodes"),
-    "set": Entry(__name__, "Trigger lifecycle state transition", "set"),
-}
 # Time that a node gets to answer [s], as for parameters.
 _TIMEOUT = 5.0
 # Time that a transition gets [s]: a node loads a model or a table of signs in it.
@@ -156,7 +155,7 @@ def _call(node: Any, name: str, kind: str, service: str, *, timeout: float = _TI
     """Call a managed node's service, such as `get_state`, of a type of lifecycle_msgs/srv."""
     from lifecycle_msgs import srv
 
-    from teo_ros2cli.graph.calls import call
+    from teo_ros2cli.graph.cli_node import call
 
     cls = getattr(srv, kind)
     return call(node, cls, f"{name}/{service}", cls.Request(**request), timeout=timeout)

@@ -8,15 +8,15 @@ import argparse
 from collections import Counter
 
 from teo_ros2cli.bags.selection import is_hidden
-from teo_ros2cli.cli.dispatch import Entry
-from teo_ros2cli.cli.graph_view import add_node_listing_arguments, known_graph, node_names, print_nodes
-from teo_ros2cli.cli.options import add_graph_arguments, full_name
+from teo_ros2cli.cli.options import (
+    add_graph_arguments,
+    add_node_listing_arguments,
+    full_name,
+    known_graph,
+    print_nodes,
+)
 from teo_ros2cli.errors import Ros2CliError
-
-VERBS = {
-    "info": Entry(__name__, "Output information about a node", "info"),
-    "list": Entry(__name__, "Output a list of available nodes", "list"),
-}
+from teo_ros2cli.graph.discovery import node_names
 
 
 def add_list_arguments(parser: argparse.ArgumentParser) -> None:
@@ -61,7 +61,7 @@ def run_info(options: argparse.Namespace) -> int:
 
     full = full_name(options.node_name)
     namespace, _, name = full.rpartition("/")
-    from teo_ros2cli.graph.cli_node import look_again
+    from teo_ros2cli.graph.discovery import look_again
 
     with known_graph(options, names=True) as node:
         count = look_again(lambda: node_names(node).count(full))

@@ -12,21 +12,11 @@ from pathlib import Path
 from typing import Any
 
 from teo_ros2cli.bags.selection import is_hidden
-from teo_ros2cli.cli.dispatch import Entry
-from teo_ros2cli.cli.graph_view import known_graph, node_names
-from teo_ros2cli.cli.options import add_graph_arguments, full_name, pattern, positive_float
+from teo_ros2cli.cli.options import add_graph_arguments, full_name, known_graph, pattern, positive_float
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.graph.discovery import node_names
 from teo_ros2cli.messages.parameters import TYPES, WILDCARD, descriptor_text, plain_value, read_parameter_file
 
-VERBS = {
-    "delete": Entry(__name__, "Delete parameter", "delete"),
-    "describe": Entry(__name__, "Show descriptive information about declared parameters", "describe"),
-    "dump": Entry(__name__, "Show all of the parameters of a node in a YAML file format", "dump"),
-    "get": Entry(__name__, "Get parameter", "get"),
-    "list": Entry(__name__, "Output a list of available parameters", "list"),
-    "load": Entry(__name__, "Load parameter file for a node", "load"),
-    "set": Entry(__name__, "Set parameter", "set"),
-}
 # Time that a node gets to answer unless another is given [s].
 _TIMEOUT = 5.0
 
@@ -225,7 +215,7 @@ def add_dump_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run_dump(options: argparse.Namespace) -> int:
     """Print a node's parameters as a parameter file."""
-    from teo_ros2cli.messages.yaml_text import dump
+    from teo_ros2cli.messages.tree import dump
 
     node = full_name(options.node_name)
     with _parameters(options) as parameters:
@@ -293,8 +283,8 @@ class _Parameters:
         """Call `<node>/list_parameters`, of rcl_interfaces/srv/ListParameters, and the like."""
         from rcl_interfaces import srv
 
-        from teo_ros2cli.graph.calls import call
-        from teo_ros2cli.graph.cli_node import look_again
+        from teo_ros2cli.graph.cli_node import call
+        from teo_ros2cli.graph.discovery import look_again
 
         if not look_again(lambda: node in node_names(self._node)):
             raise Ros2CliError("node_unknown", "Node not found")

@@ -10,34 +10,22 @@ import time
 from typing import Any
 
 from teo_ros2cli.bags.selection import is_hidden
-from teo_ros2cli.cli.dispatch import Entry
-from teo_ros2cli.cli.graph_view import (
-    NamesAndTypes,
-    add_listing_arguments,
-    known_graph,
-    print_names,
-    print_types,
-)
 from teo_ros2cli.cli.options import (
+    NamesAndTypes,
     add_graph_arguments,
+    add_listing_arguments,
     add_qos_arguments,
     add_values_argument,
     full_name,
     given_values,
+    known_graph,
     positive_float,
+    print_names,
+    print_types,
 )
 from teo_ros2cli.cli.topic.echo import Printer, add_printing_arguments
 from teo_ros2cli.errors import Ros2CliError
-from teo_ros2cli.packages import InterfaceName
-
-VERBS = {
-    "call": Entry(__name__, "Call a service", "call"),
-    "echo": Entry(__name__, "Echo a service", "echo"),
-    "find": Entry(__name__, "Output a list of available services of a given type", "find"),
-    "info": Entry(__name__, "Print information about a service", "info"),
-    "list": Entry(__name__, "Output a list of available services", "list"),
-    "type": Entry(__name__, "Output a service's type", "type"),
-}
+from teo_ros2cli.interfaces import InterfaceName
 
 
 def add_list_arguments(parser: argparse.ArgumentParser) -> None:
@@ -91,7 +79,7 @@ def run_info(options: argparse.Namespace) -> int:
     Raises:
         Ros2CliError: `service_unknown`.
     """
-    from teo_ros2cli.graph.cli_node import look_again
+    from teo_ros2cli.graph.discovery import look_again
 
     service = full_name(options.service_name)
     with known_graph(options) as node:
@@ -125,15 +113,14 @@ def run_call(options: argparse.Namespace) -> int:
     Raises:
         Ros2CliError: `invalid_type`, `invalid_yaml`, `invalid_field`.
     """
-    from teo_ros2cli.messages.classes import interface_class
+    from teo_ros2cli.interfaces import interface_class
     from teo_ros2cli.messages.fill import fill_from_text
 
     cls = interface_class(options.service_type, "srv")
     request = cls.Request()
     stamps = fill_from_text(request, given_values(options, "values"), automatic_stamps=True)
 
-    from teo_ros2cli.graph.calls import wait_for
-    from teo_ros2cli.graph.cli_node import cli_node
+    from teo_ros2cli.graph.cli_node import cli_node, wait_for
 
     with cli_node() as node:
         client = node.create_client(cls, options.service_name)
@@ -166,11 +153,11 @@ def run_echo(options: argparse.Namespace) -> int:
     Raises:
         Ros2CliError: `service_unknown`, `invalid_type`.
     """
-    from teo_ros2cli.graph.adaptive import AdaptiveSubscription
-    from teo_ros2cli.graph.cli_node import cli_node, look_again, settle
-    from teo_ros2cli.graph.listening import listen
-    from teo_ros2cli.graph.qos import from_options, to_record
-    from teo_ros2cli.messages.classes import interface_class
+    from teo_ros2cli.graph.cli_node import cli_node
+    from teo_ros2cli.graph.discovery import look_again, settle
+    from teo_ros2cli.graph.subscribing import AdaptiveSubscription, listen
+    from teo_ros2cli.interfaces import interface_class
+    from teo_ros2cli.qos import from_options, to_record
 
     service = full_name(options.service_name)
     events = f"{service}/_service_event"

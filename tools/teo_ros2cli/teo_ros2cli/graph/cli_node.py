@@ -1,54 +1,23 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""A node for the time of one command, and waiting until it knows the graph."""
+"""A node for the time of one command, and calling services with it."""
 
 from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
-from typing import Any, NamedTuple, TypeVar
+from typing import Any
 
 from teo_common.dds_profiles import ProfileError, own_sockets, requested_profile
 from teo_ros2cli.errors import Ros2CliError
-from teo_ros2cli.messages.classes import interface_name_of
 from teo_ros2cli.packages import package_prefix
 
-_Found = TypeVar("_Found")
-NODE_NAME_PREFIX = "_ros2cli"
-UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"
-# Every participant of ROS 2 publishes on this topic which nodes it holds; its name goes to DDS unmangled.
-_DISCOVERY_TOPIC = "ros_discovery_info"
-# Bytes of an endpoint's identifier that name its participant.
-_PARTICIPANT_PREFIX = 12
-
-# Time for participants of other machines to answer [s]: the genuine command's default without its daemon.
-_REMOTE_ANSWER = 0.5
-# The same when nothing is to come from outside this machine [s].
-_LOCAL_ANSWER = 0.1
-# Fast DDS announces a participant every 3 s: one that was not heard of by then does not take part.
-_LONGEST = 3.5
-# Once all participants are known, what belongs to them follows, mostly without a longer pause [s]: what was
-# missed is asked for again with the next announcement, a quarter of a second later (config/fastdds.xml).
-_QUIET = 0.3
-# The same before a message that is sent once [s]: a subscription that two announcements in a row were lost of
-# is not there yet, on a loaded machine; one that is overlooked never gets the message.
-_QUIET_BEFORE_MESSAGE = 0.6
-# Time in which a thing that is asked for by name may still be announced [s]: four announcements of
-# config/fastdds.xml, of which a loaded machine loses some.
-_LATE = 1.0
-# Interval of looking at the graph [s].
-_POLL = 0.02
-
-# Ports of the RTPS specification (OMG DDSI-RTPS 2.5, section 9.6.2.3): those that are bound tell how many
-# participants run on this machine, so how many there are to wait for.
-_PORT_BASE = 7400
-_DOMAIN_GAIN = 250
-_UNICAST_OFFSET = 10
-_PARTICIPANT_GAIN = 2
-_UDP_TABLE = Path("/proc/net/udp")
+# Begins the name of the node of a command; an underscore hides it.
+_NODE_NAME_PREFIX = "_ros2cli"
+# Longest time in which a signal is not looked at [s].
+_STEP = 0.05
 
 
 @contextmanager
@@ -91,7 +60,7 @@ def cli_node(
     rclpy.init(args=[], context=context, signal_handler_options=handlers)
     try:
         node = rclpy.create_node(
-            name or f"{NODE_NAME_PREFIX}_{os.getpid()}",
+            name or f"{_NODE_NAME_PREFIX}_{os.getpid()}",
             context=context,
             enable_rosout=rosout,
             start_parameter_services=False,
@@ -134,119 +103,43 @@ def _prompt_discovery() -> bool:
     return False
 
 
-def settle(
-    node: Any,
-    spin_time: float | None = None,
-    *,
-    names: bool = False,
-    publishers: Collection[Any] = (),
-    stopped: Callable[[], bool] = lambda: False,
-) -> None:
-    """Wait until the node knows the graph.
-
-    That is: an answering time has passed, every participant of this machine is known, and nothing has changed
-    for a moment; at most `_LONGEST` or the spin time.
+def wait_for(node: Any, future: Any, timeout: float | None = None) -> Any:
+    """Spin a node until a future is done, and return its result.
 
     Args:
-        node: The node.
-        spin_time: Answering time [s]; by default half a second, less if only this machine takes part.
-        names: Wait for the names of the nodes as well, which come after topics and services.
-        publishers: Wait also until every subscription of their topics that can take from them has matched.
-        stopped: Asked all the time; True ends the waiting.
+        node: The node that the future belongs to.
+        future: An rclpy future.
+        timeout: Longest time [s], None for no limit.
+
+    Raises:
+        Ros2CliError: `no_answer`, the time is over.
     """
-    started = time.monotonic()
-    shortest = spin_time if spin_time is not None else _answering_time()
-    longest = max(shortest, _LONGEST)
-    quiet = _QUIET_BEFORE_MESSAGE if publishers else _QUIET
-    if spin_time is not None:
-        quiet = min(quiet, spin_time)
-    changed, last = started, None
-    while (now := time.monotonic()) - started < longest and not stopped():
-        picture = _picture(node, names, publishers)
-        if picture != last:
-            changed, last = now, picture
-        ready = UNKNOWN_NODE not in picture.nodes
-        ready = ready and picture.participants >= local_participants(node.context.get_domain_id())
-        ready = ready and picture.matched >= len(picture.subscriptions)
-        if ready and now - started >= shortest and now - changed >= quiet:
-            return
-        time.sleep(_POLL)
+    from rclpy.executors import SingleThreadedExecutor
 
-
-def look_again(look: Callable[[], _Found]) -> _Found:
-    """Return what a look at the graph finds; while that is nothing, look on for a moment.
-
-    What has only just appeared is announced a little after the rest.
-    """
-    deadline = time.monotonic() + _LATE
-    while not (found := look()) and time.monotonic() < deadline:
-        time.sleep(_POLL)
-    return found
-
-
-def _answering_time() -> float:
-    outside = os.environ.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "").upper() not in ("LOCALHOST", "OFF")
-    peers = os.environ.get("ROS_STATIC_PEERS", "").strip()
-    return _REMOTE_ANSWER if outside or peers else _LOCAL_ANSWER
-
-
-class _Picture(NamedTuple):
-    participants: int
-    nodes: tuple[str, ...]
-    topics: tuple[tuple[str, ...], ...]
-    subscriptions: tuple[bytes, ...]
-    matched: int
-
-
-def _picture(node: Any, names: bool, publishers: Collection[Any]) -> _Picture:
-    """Return what the node knows of the graph; names of nodes and publishers' matches only on request."""
-    announcers = node.get_publishers_info_by_topic(_DISCOVERY_TOPIC, no_mangle=True)
-    participants = {bytes(info.endpoint_gid[:_PARTICIPANT_PREFIX]) for info in announcers}
-    # Every node publishes parameter events: by these one sees whether a node's name has come.
-    owners = node.get_publishers_info_by_topic("/parameter_events") if names else []
-    topics = tuple((name, *types) for name, types in node.get_topic_names_and_types())
-    return _Picture(
-        len(participants),
-        tuple(sorted(info.node_name for info in owners)),
-        topics,
-        tuple(taker for publisher in publishers for taker in _takers(node, publisher)),
-        sum(publisher.get_subscription_count() for publisher in publishers),
-    )
-
-
-def _takers(node: Any, publisher: Any) -> tuple[bytes, ...]:
-    """Return the identifiers of the subscriptions that a publisher's type and quality of service suit."""
-    from rclpy.qos import QoSCompatibility, qos_check_compatible
-
-    kind = interface_name_of(publisher.msg_type)
-    return tuple(
-        sorted(
-            bytes(info.endpoint_gid)
-            for info in node.get_subscriptions_info_by_topic(publisher.topic_name)
-            if info.topic_type == kind
-            and qos_check_compatible(publisher.qos_profile, info.qos_profile)[0] != QoSCompatibility.ERROR
-        )
-    )
-
-
-def local_participants(domain: int) -> int:
-    """Return the number of participants of a domain on this machine; 0 where that cannot be told."""
+    deadline = None if timeout is None else time.monotonic() + timeout
+    executor = SingleThreadedExecutor(context=node.context)
+    executor.add_node(node)
     try:
-        return count_participants(_UDP_TABLE.read_text(encoding="ascii"), domain)
-    except (OSError, UnicodeDecodeError):
-        return 0
+        while not future.done():
+            if deadline is not None and time.monotonic() >= deadline:
+                raise Ros2CliError("no_answer", f"No answer within {timeout} s")
+            # In steps: while the middleware waits, Python does not see a signal.
+            executor.spin_once(timeout_sec=_STEP)
+    finally:
+        executor.remove_node(node)
+    return future.result()
 
 
-def count_participants(udp_table: str, domain: int) -> int:
-    """Count the discovery ports of a domain in a text of the form of `/proc/net/udp`."""
-    first = _PORT_BASE + _DOMAIN_GAIN * domain + _UNICAST_OFFSET
-    last = _PORT_BASE + _DOMAIN_GAIN * (domain + 1)
-    ports = set()
-    for line in udp_table.splitlines()[1:]:
-        fields = line.split()
-        if len(fields) > 1 and ":" in fields[1]:
-            try:
-                ports.add(int(fields[1].rsplit(":", 1)[1], 16))
-            except ValueError:
-                continue
-    return sum(first <= port < last and (port - first) % _PARTICIPANT_GAIN == 0 for port in ports)
+def call(node: Any, service_class: Any, name: str, request: Any, *, timeout: float) -> Any:
+    """Call a service that is expected to be there, and return its response.
+
+    Raises:
+        Ros2CliError: `service_unavailable`, it did not appear in time; `no_answer`.
+    """
+    client = node.create_client(service_class, name)
+    try:
+        if not client.wait_for_service(timeout_sec=timeout):
+            raise Ros2CliError("service_unavailable", f"Service '{name}' is not available")
+        return wait_for(node, client.call_async(request), timeout)
+    finally:
+        node.destroy_client(client)

@@ -10,13 +10,12 @@ from typing import Any, NamedTuple
 
 from teo_ros2cli.bags.bag import Bag
 from teo_ros2cli.bags.metadata import TopicRecord
-from teo_ros2cli.bags.qos_record import QosRecord, offer_for
-from teo_ros2cli.bags.read_ahead import ReadAhead
-from teo_ros2cli.bags.schedule import Schedule
+from teo_ros2cli.bags.playback import ReadAhead, Schedule
+from teo_ros2cli.bags.selection import TopicSelection
 from teo_ros2cli.errors import Ros2CliError
-from teo_ros2cli.graph.cli_node import settle
-from teo_ros2cli.graph.qos import from_record
-from teo_ros2cli.messages.classes import message_class
+from teo_ros2cli.graph.discovery import settle
+from teo_ros2cli.interfaces import message_class
+from teo_ros2cli.qos import QosRecord, from_record, offer_for
 
 # Longest time in which a signal or a key is not looked at [s].
 _STEP = 0.05
@@ -26,7 +25,7 @@ class PlayerSettings(NamedTuple):
     """How a bag is played.
 
     Args:
-        selects: Tells whether a topic is played, by its name in the bag.
+        selection: Which topics are played.
         remap: New full topic name by old one.
         rate: Seconds of the bag in one second.
         start_offset: Where to begin, from the start of the bag [s].
@@ -42,7 +41,7 @@ class PlayerSettings(NamedTuple):
         wait_acknowledged: Longest time to wait for acknowledgements at the end [s].
     """
 
-    selects: Callable[[str], bool]
+    selection: TopicSelection
     remap: Mapping[str, str] = {}
     rate: float = 1.0
     start_offset: float = 0.0
@@ -89,7 +88,7 @@ class Player:
         self._next_tick = 0.0
         self._publishers: dict[str, Any] = {}
         for topic, _ in bag.metadata.topics:
-            if settings.selects(topic.name):
+            if settings.selection.accepts(topic.name, topic.type):
                 self._advertise(topic)
         clocked = settings.clock > 0 or any(map(settings.clock_before, self._publishers))
         self._clock = _ClockPublisher(node) if clocked else None

@@ -8,15 +8,13 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any, NamedTuple
 
-from teo_ros2cli.bags.background_writer import Arrival, BackgroundWriter
 from teo_ros2cli.bags.metadata import BagMetadata, TopicRecord
-from teo_ros2cli.bags.qos_record import QosRecord
 from teo_ros2cli.bags.selection import TopicSelection
-from teo_ros2cli.bags.writer import BagWriter
-from teo_ros2cli.definitions import Schema, installed_type_hash, schema_of
+from teo_ros2cli.bags.writer import Arrival, BackgroundWriter, BagWriter
 from teo_ros2cli.errors import Ros2CliError
-from teo_ros2cli.graph.adaptive import AdaptiveSubscription
-from teo_ros2cli.messages.classes import message_class
+from teo_ros2cli.graph.subscribing import AdaptiveSubscription
+from teo_ros2cli.interfaces import Schema, installed_type_hash, message_class, schema_of
+from teo_ros2cli.qos import QosRecord
 
 
 class RecorderSettings(NamedTuple):

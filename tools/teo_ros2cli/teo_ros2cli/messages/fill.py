@@ -26,8 +26,8 @@ from rosidl_parser.definition import (
 )
 
 from teo_ros2cli.errors import Ros2CliError
-from teo_ros2cli.messages.classes import interface_class, interface_name_of
-from teo_ros2cli.messages.yaml_text import Scalar, parse, plain
+from teo_ros2cli.interfaces import interface_class, interface_name_of
+from teo_ros2cli.messages.tree import Scalar, parse, plain
 
 # A builtin_interfaces/msg/Time.
 Stamp = Any

@@ -11,7 +11,7 @@ from typing import Any
 import yaml
 
 from teo_ros2cli.errors import Ros2CliError
-from teo_ros2cli.messages.yaml_text import dump
+from teo_ros2cli.messages.tree import dump
 
 # Name of the node in a parameter file whose parameters are for every node.
 WILDCARD = "/**"

@@ -1,12 +1,14 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""How the `ros2 bag` verbs speak of what is wrong, and how a signal ends them."""
+"""How the `ros2 bag` verbs speak of what is wrong, and how signals and keys reach them."""
 
 from __future__ import annotations
 
+import os
+import select
 import signal
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
 
@@ -37,3 +39,41 @@ class StopSignals:
 
     def _note(self, _number: int, _frame: FrameType | None) -> None:
         self.came = True
+
+
+SPACE = " "
+RIGHT = "\x1b[C"
+UP = "\x1b[A"
+DOWN = "\x1b[B"
+
+
+@contextmanager
+def keys(enabled: bool) -> Iterator[Callable[[], str] | None]:
+    """Yield a function that returns the key pressed since it was last called, or an empty string.
+
+    Yields None where there are no keys to read: not enabled, or no terminal. The terminal's mode is restored.
+    """
+    if not enabled or not sys.stdin or not sys.stdin.isatty():
+        yield None
+        return
+    import termios
+    import tty
+
+    descriptor = sys.stdin.fileno()
+    # A process in the background must not touch the terminal: it would be stopped.
+    if os.getpgrp() != os.tcgetpgrp(descriptor):
+        yield None
+        return
+    before = termios.tcgetattr(descriptor)
+    tty.setcbreak(descriptor)
+    try:
+        yield lambda: _pressed(descriptor)
+    finally:
+        termios.tcsetattr(descriptor, termios.TCSADRAIN, before)
+
+
+def _pressed(descriptor: int) -> str:
+    if not select.select([descriptor], [], [], 0)[0]:
+        return ""
+    # The keys with arrows send three characters at once.
+    return os.read(descriptor, 3).decode("ascii", errors="ignore")

@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING
 
 from teo_ros2cli.bags.bag import Bag
 from teo_ros2cli.bags.foreign_bag import open_any_bag
-from teo_ros2cli.bags.qos_record import read_overrides
-from teo_ros2cli.cli.bag.console import StopSignals, bag_errors, warn
+from teo_ros2cli.bags.selection import TopicSelection
+from teo_ros2cli.cli.bag.console import DOWN, RIGHT, SPACE, UP, StopSignals, bag_errors, keys, warn
 from teo_ros2cli.cli.options import full_name, non_negative_float, pattern, positive_float, positive_int
 from teo_ros2cli.errors import Ros2CliError
-from teo_ros2cli.graph.keyboard import DOWN, RIGHT, SPACE, UP, keys
+from teo_ros2cli.qos import read_overrides
 
 if TYPE_CHECKING:
     from teo_ros2cli.graph.player import Player
@@ -143,7 +143,7 @@ def run(options: argparse.Namespace) -> int:
         Ros2CliError: `invalid_remap`, `invalid_regex`, `invalid_overrides`, or as of `open_any_bag`.
     """
     stop = StopSignals()
-    selects = _selector(options)
+    selection = _selection(options)
     remap = dict(map(_remapping, options.remap))
     overrides = read_overrides(options.qos_profile_overrides_path)
     bag = open_any_bag(options.bag_path)
@@ -158,7 +158,7 @@ def run(options: argparse.Namespace) -> int:
     if options.playback_until_sec is not None and options.playback_until_sec >= 0:
         until = round(options.playback_until_sec * 1e9)
     settings = PlayerSettings(
-        selects=selects,
+        selection=selection,
         remap=remap,
         rate=options.rate,
         start_offset=options.start_offset,
@@ -221,21 +221,18 @@ def _clock_topics(options: argparse.Namespace) -> Callable[[str], bool]:
     return lambda topic: options.clock_topics_all or topic in topics
 
 
-def _selector(options: argparse.Namespace) -> Callable[[str], bool]:
-    names = frozenset(map(full_name, options.topics))
+def _selection(options: argparse.Namespace) -> TopicSelection:
     excluded = set(map(full_name, options.exclude_topics))
     if options.clock or options.clock_topics or options.clock_topics_all:
         excluded.add("/clock")
-    included_pattern, excluded_pattern = pattern(options.regex), pattern(options.exclude_regex)
-
-    def selects(topic: str) -> bool:
-        if topic in excluded or (excluded_pattern is not None and excluded_pattern.search(topic)):
-            return False
-        if not names and included_pattern is None:
-            return True
-        return topic in names or (included_pattern is not None and included_pattern.search(topic) is not None)
-
-    return selects
+    return TopicSelection(
+        everything=not options.topics and not options.regex,
+        names=frozenset(map(full_name, options.topics)),
+        pattern=pattern(options.regex),
+        excluded_names=frozenset(excluded),
+        excluded_pattern=pattern(options.exclude_regex),
+        include_hidden=True,
+    )
 
 
 def _check_selected(options: argparse.Namespace, bag: Bag) -> None:

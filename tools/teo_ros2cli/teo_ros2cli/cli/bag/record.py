@@ -12,13 +12,13 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from teo_ros2cli.bags.file_writer import DEFAULT_PRESET, PRESETS
-from teo_ros2cli.bags.qos_record import read_overrides
+from teo_ros2cli.bags.mcap_file import DEFAULT_PRESET, PRESETS
 from teo_ros2cli.bags.selection import TopicSelection
 from teo_ros2cli.bags.writer import BagWriter
 from teo_ros2cli.cli.bag.console import StopSignals, bag_errors, warn
 from teo_ros2cli.cli.options import full_name, key_value, non_negative_int, pattern, positive_int
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.qos import read_overrides
 
 if TYPE_CHECKING:
     from teo_ros2cli.graph.recorder import Recorder
@@ -196,8 +196,9 @@ def run(options: argparse.Namespace) -> int:
 
     from rclpy.logging import LoggingSeverity
 
-    from teo_ros2cli.graph.cli_node import cli_node, settle
-    from teo_ros2cli.graph.keyboard import SPACE, keys
+    from teo_ros2cli.cli.bag.console import SPACE, keys
+    from teo_ros2cli.graph.cli_node import cli_node
+    from teo_ros2cli.graph.discovery import settle
     from teo_ros2cli.graph.recorder import Recorder, RecorderSettings
 
     settings = RecorderSettings(

@@ -18,10 +18,9 @@ from teo_ros2cli.cli.options import (
     positive_float,
 )
 from teo_ros2cli.errors import Ros2CliError
-from teo_ros2cli.messages.tree import Abridgement, message_csv, message_tree, select
-from teo_ros2cli.messages.yaml_text import dump
+from teo_ros2cli.messages.tree import Abridgement, dump, message_csv, message_tree, select
 
-DEFAULT_LENGTH = 128
+_DEFAULT_LENGTH = 128
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -73,8 +72,8 @@ def add_printing_arguments(parser: argparse.ArgumentParser) -> None:
         "--truncate-length",
         "-l",
         type=non_negative_int,
-        default=DEFAULT_LENGTH,
-        help=f"The length to truncate arrays, bytes, and string to (default: {DEFAULT_LENGTH})",
+        default=_DEFAULT_LENGTH,
+        help=f"The length to truncate arrays, bytes, and string to (default: {_DEFAULT_LENGTH})",
     )
     parser.add_argument("--no-arr", action="store_true", help="Don't print array fields of messages")
     parser.add_argument("--no-str", action="store_true", help="Don't print string fields of messages")
@@ -90,12 +89,11 @@ def run(options: argparse.Namespace) -> int:
         Ros2CliError: `invalid_type`, `invalid_field`, `invalid_topic`, `invalid_filter`, `type_unknown`,
             `ambiguous_type`.
     """
-    from teo_ros2cli.graph.adaptive import AdaptiveSubscription
-    from teo_ros2cli.graph.cli_node import cli_node, look_again, settle
-    from teo_ros2cli.graph.listening import listen
-    from teo_ros2cli.graph.qos import from_options, to_record
-    from teo_ros2cli.graph.topics import full_topic_name, only_type
-    from teo_ros2cli.messages.classes import message_class
+    from teo_ros2cli.graph.cli_node import cli_node
+    from teo_ros2cli.graph.discovery import full_topic_name, look_again, only_type, settle
+    from teo_ros2cli.graph.subscribing import AdaptiveSubscription, listen
+    from teo_ros2cli.interfaces import message_class
+    from teo_ros2cli.qos import from_options, to_record
 
     given = message_class(options.message_type) if options.message_type else None
     show = Printer(options)

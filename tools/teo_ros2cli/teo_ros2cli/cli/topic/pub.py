@@ -19,7 +19,7 @@ from teo_ros2cli.cli.options import (
     positive_float,
 )
 from teo_ros2cli.errors import Ros2CliError
-from teo_ros2cli.messages.classes import message_class
+from teo_ros2cli.interfaces import message_class
 from teo_ros2cli.messages.fill import StampSetter, fill_from_text
 
 # Longest time that reliable subscriptions get to receive the last message [s]. A subscription that has been
@@ -104,9 +104,9 @@ def run(options: argparse.Namespace) -> int:
     message = message_class(options.message_type)()
     stamps = fill_from_text(message, given_values(options, "values"), automatic_stamps=True)
 
-    from teo_ros2cli.graph.cli_node import cli_node, settle
-    from teo_ros2cli.graph.qos import from_options
-    from teo_ros2cli.graph.topics import full_topic_name
+    from teo_ros2cli.graph.cli_node import cli_node
+    from teo_ros2cli.graph.discovery import full_topic_name, settle
+    from teo_ros2cli.qos import from_options
 
     with cli_node(options.node_name, use_sim_time=options.use_sim_time) as node:
         topic = full_topic_name(node, options.topic_name)

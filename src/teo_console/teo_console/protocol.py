@@ -1,21 +1,119 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""What the node tells a page: the one situation that all pages share, and answers to their requests.
+"""What page and node say to each other over the websocket, as types: JSON both ways, poses as binary frames.
 
-Poses are binary frames: the time [s] as a float64, then a float32 for each joint [rad], little-endian. Thirty
-a second go to every page: as JSON they would be ten times as long.
+`FromPage` and `ToPage` are tagged unions by their field `type`. Times are seconds of the node's clock, as the
+stamps of the messages that they come from. `python -m teo_console.protocol` writes both unions as the JSON
+Schema that `protocol.schema.json` holds.
 
-Times are seconds of the node's clock, as the stamps of the messages that they come from.
+A pose is the time [s] as a float64, then a float32 for each joint [rad], little-endian. Every page gets 30 a
+second: as JSON they would be ten times as long.
 """
 
 from __future__ import annotations
 
+import json
 import struct
 from collections.abc import Sequence
-from typing import Literal
+from enum import StrEnum
+from typing import Annotated, Any, Literal
 
 import msgspec
-from msgspec import Struct
+from msgspec import Meta, Struct
+
+from teo_console.errors import ConsoleError
+
+# Characters of a text: a page of a book. The translator has a limit of its own, and a reason to refuse by.
+TEXT_LENGTH = 2000
+# Of a gloss in SignToken.
+_GLOSS_LENGTH = 64
+# Bytes of a message: the longest text in four-byte characters, escaped, and the words around it.
+MESSAGE_BYTES = 32 * 1024
+
+Number = Annotated[int, Meta(ge=0, le=2**31 - 1)]
+Text = Annotated[str, Meta(min_length=1, max_length=TEXT_LENGTH)]
+Gloss = Annotated[str, Meta(min_length=1, max_length=_GLOSS_LENGTH)]
+Name = Annotated[str, Meta(min_length=1, max_length=64)]
+
+
+class Request(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, tag_field="type"):
+    """What every request has."""
+
+    id: Number
+
+
+class SignText(Request, frozen=True, tag="sign_text"):
+    """Have a Spanish text signed."""
+
+    text: Text
+
+
+class SignGlosses(Request, frozen=True, tag="sign_glosses"):
+    """Have signs of the table signed in a row, without translation."""
+
+    glosses: Annotated[tuple[Gloss, ...], Meta(min_length=1, max_length=32)]
+
+
+class Order(StrEnum):
+    """What the robot can be told at any time."""
+
+    STOP = "stop"
+    REARM = "rearm"
+    PAUSE = "pause"
+    RESUME = "resume"
+    CLEAR_QUEUE = "clear_queue"
+
+
+class Command(Request, frozen=True, tag="command"):
+    """Tell the robot something at once."""
+
+    order: Order
+
+
+class SetSpeed(Request, frozen=True, tag="set_speed"):
+    """How fast the robot signs, of the speed that was planned. 0 would be a pause, which is an order."""
+
+    factor: Annotated[float, Meta(ge=0.1, le=1.0)]
+
+
+class ConfirmSpoken(Request, frozen=True, tag="confirm_spoken"):
+    """Sign what was recognised, as it stands or mended."""
+
+    spoken: Name
+    text: Text
+
+
+class DiscardSpoken(Request, frozen=True, tag="discard_spoken"):
+    """Forget what was recognised."""
+
+    spoken: Name
+
+
+class FetchSign(Request, frozen=True, tag="get_sign"):
+    """One sign of the table: its entry, and its motion."""
+
+    gloss: Gloss
+
+
+FromPage = SignText | SignGlosses | Command | SetSpeed | ConfirmSpoken | DiscardSpoken | FetchSign
+
+_DECODER = msgspec.json.Decoder(FromPage)
+
+
+def decode(message: str) -> FromPage:
+    """Read a message of a page.
+
+    Raises:
+        ConsoleError: "malformed": it is no such message; the sentence says where it is wrong.
+    """
+    try:
+        asked: FromPage = _DECODER.decode(message)
+    except (msgspec.DecodeError, RecursionError, UnicodeError) as error:
+        raise ConsoleError(
+            "malformed", f"expected a message as protocol.schema.json has it: {error}"
+        ) from error
+    return asked
+
 
 TokenKind = Literal["sign", "letter", "number", "pause"]
 Origin = Literal[
@@ -212,3 +310,23 @@ def decode_pose(frame: bytes) -> tuple[float, tuple[float, ...]]:
     """Read a pose: its time [s], and the positions [rad]."""
     stamp, *positions = struct.unpack(f"<d{(len(frame) - 8) // 4}f", frame)
     return stamp, tuple(positions)
+
+
+def schema() -> dict[str, Any]:
+    """Both directions, with the types that they share under `$defs`."""
+    (from_page, to_page), definitions = msgspec.json.schema_components((FromPage, ToPage))
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "Messages of the console's websocket",
+        "$defs": {**definitions, "FromPage": from_page, "ToPage": to_page},
+        "description": "A page sends FromPage, the node ToPage.",
+    }
+
+
+def schema_text() -> str:
+    """The schema as its file has it."""
+    return json.dumps(schema(), indent=2, ensure_ascii=False) + "\n"
+
+
+if __name__ == "__main__":
+    print(schema_text(), end="")

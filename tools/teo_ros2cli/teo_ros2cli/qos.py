@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""A quality-of-service profile as bags store it, files that name such, and the choice of one that suits many.
+"""Quality of service: profiles as bags store them and as rclpy takes them, and choosing one that suits many.
 
 Source of names and numbers: rmw/types.h and rmw/qos_string_conversions.h of ROS 2 Jazzy.
 """
@@ -222,3 +222,52 @@ def read_overrides(path: Path | None) -> dict[str, QosRecord]:
             "invalid_overrides", f"QoS profile overrides '{path}' cannot be read: {error}"
         ) from error
     return {name if name.startswith("/") else f"/{name}": profile for name, profile in profiles.items()}
+
+
+def to_record(profile: Any) -> QosRecord:
+    """Return what a bag stores of a profile of rclpy's."""
+    policies: dict[str, Any] = {name: getattr(profile, name).name.lower() for name in _POLICIES}
+    # Zero stands for unspecified.
+    times: dict[str, Any] = {name: getattr(profile, name).nanoseconds or INFINITE for name in DURATIONS}
+    avoid = bool(profile.avoid_ros_namespace_conventions)
+    return QosRecord(depth=profile.depth, avoid_ros_namespace_conventions=avoid, **policies, **times)
+
+
+def from_record(record: QosRecord) -> Any:
+    """Return the rclpy.qos.QoSProfile to publish or subscribe with."""
+    from rclpy.duration import Duration
+    from rclpy.qos import QoSProfile
+
+    return QoSProfile(
+        depth=record.depth,
+        avoid_ros_namespace_conventions=record.avoid_ros_namespace_conventions,
+        **{name: _policy_class(name)[getattr(record, name).upper()] for name in _POLICIES},
+        **{name: Duration(nanoseconds=getattr(record, name)) for name in DURATIONS},
+    )
+
+
+def from_options(options: Any) -> Any:
+    """Return the rclpy.qos.QoSProfile that the `--qos-*` options of a command describe."""
+    from rclpy.duration import Duration
+    from rclpy.qos import DurabilityPolicy, QoSPresetProfiles, QoSProfile
+
+    # The presets are shared objects: a copy is changed.
+    preset = QoSPresetProfiles.get_from_short_key(options.qos_profile)
+    profile = QoSProfile(**{slot[1:]: getattr(preset, slot[1:]) for slot in QoSProfile.__slots__})
+    for name in _POLICIES:
+        if word := getattr(options, f"qos_{name}"):
+            setattr(profile, name, _policy_class(name).get_from_short_key(word))
+    if options.qos_liveliness_lease_duration_seconds is not None:
+        profile.liveliness_lease_duration = Duration(seconds=options.qos_liveliness_lease_duration_seconds)
+    if options.qos_depth is not None:
+        profile.depth = options.qos_depth
+    elif profile.durability == DurabilityPolicy.TRANSIENT_LOCAL and profile.depth == 0:
+        profile.depth = 1
+    return profile
+
+
+def _policy_class(name: str) -> Any:
+    """Return rclpy's enumeration of a policy, such as rclpy.qos.HistoryPolicy."""
+    import rclpy.qos
+
+    return getattr(rclpy.qos, f"{name.capitalize()}Policy")

@@ -1,26 +1,121 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""`ros2 bag convert`: writes bags anew, as a file says with the keys that rosbag2's own command reads.
-
-The keys: rosbag2's README, "Converting bags".
-"""
+"""`ros2 bag info`, `convert` and `reindex`: bags that are stored already."""
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping
+import shutil
+import time
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import yaml
 
-from teo_ros2cli.bags.conversion import OutputBag, convert
-from teo_ros2cli.bags.file_writer import DEFAULT_PRESET, PRESETS
+from teo_ros2cli.bags.bag import open_bag
 from teo_ros2cli.bags.foreign_bag import open_any_bag
+from teo_ros2cli.bags.mcap_file import DEFAULT_PRESET, PRESETS
+from teo_ros2cli.bags.metadata import BagMetadata
+from teo_ros2cli.bags.rewriting import OutputBag, convert, reindex
 from teo_ros2cli.bags.selection import TopicSelection
 from teo_ros2cli.cli.bag.console import bag_errors, warn
 from teo_ros2cli.cli.options import full_name, pattern
 from teo_ros2cli.errors import Ros2CliError
+
+# Largest bag that is read through to check it [bytes]: some seconds.
+_VERIFIED_SIZE = 1024**3
+
+
+def add_info_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the verb's arguments."""
+    parser.add_argument("bag_path", type=Path, help="Bag to open: its directory or a file of it")
+    parser.add_argument("-s", "--storage", default="", help="Accepted; the bag itself tells how it is stored")
+    parser.add_argument("-t", "--topic-name", action="store_true", help="Only display topic names.")
+
+
+@bag_errors()
+def run_info(options: argparse.Namespace) -> int:
+    """Print the summary, after a warning for each thing that is wrong with the bag.
+
+    Raises:
+        Ros2CliError: The bag cannot be read at all; codes as of `open_any_bag`.
+    """
+    bag = open_any_bag(options.bag_path)
+    if not bag.problems and bag.size <= _VERIFIED_SIZE:
+        bag = open_any_bag(options.bag_path, verify=True)
+    for problem in bag.problems:
+        warn(problem)
+    if options.topic_name:
+        for topic, _ in bag.metadata.topics:
+            print(topic.name)
+        return 0
+    if not bag.metadata.messages:
+        warn(f"'{options.bag_path}' holds no messages")
+    elif bag.problems:
+        warn(f"{bag.metadata.messages} messages can be read")
+    print(summary(bag.metadata, bag.size))
+    return 0
+
+
+_LABEL_WIDTH = 19
+_SECOND = 1_000_000_000
+
+
+def summary(metadata: BagMetadata, size: int) -> str:
+    """Return the text that `ros2 bag info` prints.
+
+    Args:
+        metadata: What the bag holds.
+        size: Size of its files [bytes].
+    """
+    start = metadata.start if metadata.messages else 0
+    topics = [
+        f"Topic: {topic.name} | Type: {topic.type} | Count: {count} | Serialization Format: "
+        f"{topic.serialization_format}"
+        for topic, count in metadata.topics
+    ]
+    entries: list[tuple[str, Sequence[str]]] = [
+        ("Files:", [record.path for record in metadata.files]),
+        ("Bag size:", [size_text(size)]),
+        ("Storage id:", [metadata.storage]),
+        ("ROS Distro:", [metadata.ros_distro or "unknown"]),
+        ("Duration:", [f"{_seconds_text(metadata.duration)}s"]),
+        ("Start:", [moment_text(start)]),
+        ("End:", [moment_text(start + metadata.duration)]),
+        ("Messages:", [str(metadata.messages)]),
+        ("Topic information:", topics),
+    ]
+    lines = [""]
+    for label, values in entries:
+        for i, value in enumerate(values or [""]):
+            lines.append((label if i == 0 else "").ljust(_LABEL_WIDTH) + value)
+    lines += ["Service:           0", "Service information: "]
+    return "\n".join(lines)
+
+
+def _seconds_text(nanoseconds: int) -> str:
+    """Return a time with nine decimals [s]."""
+    return f"{nanoseconds // _SECOND}.{nanoseconds % _SECOND:09d}"
+
+
+def moment_text(nanoseconds: int) -> str:
+    """Return a moment [ns since the epoch] in local time, and in seconds since the epoch."""
+    local = time.localtime(nanoseconds // _SECOND)
+    date = time.strftime("%b %e %Y %H:%M:%S", local)
+    return f"{date}.{nanoseconds % _SECOND:09d} ({_seconds_text(nanoseconds)})"
+
+
+def size_text(size: int) -> str:
+    """Return a size [bytes] in the largest unit that leaves at least 1."""
+    value = float(size)
+    units = ("B", "KiB", "MiB", "GiB", "TiB")
+    unit = 0
+    while value >= 1024 and unit < len(units) - 1:
+        value /= 1024
+        unit += 1
+    return f"{value:.{0 if unit == 0 else 1}f} {units[unit]}"
+
 
 # Keys of rosbag2 that say what holds here anyway, with the values that mean it.
 _ACCEPTED: Mapping[str, tuple[Any, ...]] = {
@@ -55,7 +150,7 @@ _DEFAULTS: Mapping[str, Any] = {
 _KINDS = {str: "a text", int: "a number", bool: "true or false", list: "a list"}
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_convert_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the verb's arguments."""
     parser.add_argument(
         "-i",
@@ -73,18 +168,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 @bag_errors()
-def run(options: argparse.Namespace) -> int:
+def run_convert(options: argparse.Namespace) -> int:
     """Read the bags, write those of the file, and say how many messages each has got.
 
     Raises:
-        Ros2CliError: `outputs_invalid`, `bag_unwritable`, or as of `read_outputs`, `open_any_bag`, `convert`.
+        Ros2CliError: `outputs_invalid`, `bag_unwritable`, or as of `open_any_bag` and `rewriting.convert`.
     """
     for words in options.input:
         if len(words) > 2:
             raise Ros2CliError(
                 "invalid_input", f"-i takes a bag and its storage identifier, got {' '.join(words)}"
             )
-    outputs = read_outputs(options.output_options)
+    outputs = _read_outputs(options.output_options)
     bags = [open_any_bag(Path(words[0])) for words in options.input]
     for bag in bags:
         for problem in bag.problems:
@@ -98,7 +193,7 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def read_outputs(path: Path) -> tuple[OutputBag, ...]:
+def _read_outputs(path: Path) -> tuple[OutputBag, ...]:
     """Read the file that says what is to come out; where it names no topics, all do.
 
     Raises:
@@ -159,3 +254,39 @@ def _output(entry: Any, where: str) -> OutputBag:
         max_size=values["max_bagfile_size"],
         max_duration=values["max_bagfile_duration"],
     )
+
+
+def add_reindex_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the verb's arguments."""
+    parser.add_argument("bag_path", type=Path, help="Bag to repair: its directory or a file of it")
+    parser.add_argument(
+        "storage_id", nargs="?", default="mcap", choices=("mcap",), help="Storage identifier of the bag"
+    )
+    parser.add_argument(
+        "-o", "--output", type=Path, help="Repair a copy, and leave the bag as it is (default: in place)"
+    )
+
+
+@bag_errors()
+def run_reindex(options: argparse.Namespace) -> int:
+    """Repair the bag's files, write its metadata, and say what could not be saved.
+
+    Raises:
+        Ros2CliError: `output_exists`; `bag_unwritable`, the disk is full or the bag belongs to somebody else;
+            others as of `open_bag`.
+    """
+    path: Path = options.bag_path
+    try:
+        if options.output is not None:
+            open_bag(path)  # what is no bag is not copied
+            if options.output.exists():
+                raise Ros2CliError("output_exists", f"Output '{options.output}' already exists.")
+            (shutil.copytree if path.is_dir() else shutil.copy2)(path, options.output)
+            path = options.output
+        bag = reindex(path, print)
+    except OSError as error:
+        raise Ros2CliError("bag_unwritable", f"'{path}' cannot be repaired: {error}") from error
+    for problem in bag.problems:
+        warn(problem)
+    print(f"Reindexing complete: {bag.metadata.messages} messages in {len(bag.files)} file(s).")
+    return 0

@@ -4,11 +4,40 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
-from teo_console.jobs.job import Command, Limits
+
+@dataclass(frozen=True, kw_only=True)
+class Limits:
+    """What a command may use.
+
+    Attributes:
+        seconds: Time from its start to its end [s]; of processor time twice as much, on two cores.
+        memory: Address space of each of its processes [B].
+        file: Largest file that it writes [B].
+    """
+
+    seconds: float = 120.0
+    memory: int = 8 * 1024**3
+    file: int = 256 * 1024**2
+
+
+@dataclass(frozen=True, kw_only=True)
+class Command:
+    """A command of the project.
+
+    Attributes:
+        name: What it is for, in one word, as pages know it: "capture", "coverage".
+        arguments: The program and what it is told.
+        limits: What it may use.
+    """
+
+    name: str
+    arguments: tuple[str, ...]
+    limits: Limits = field(default_factory=Limits)
+
 
 # Of a film of half a minute, on a busy machine [s]; three seconds take ten on an idle one.
 _FILM_SECONDS = 240.0
@@ -21,52 +50,29 @@ _TEXT_SECONDS = 180.0
 # TensorFlow Lite and OpenCV map libraries and thread stacks; what they use of it is a tenth.
 _MEMORY = 12 * 1024**3
 
-_LUT = ("ros2", "run", "teo_lut_executor", "lut")
+_LUT_COMMAND = ("ros2", "run", "teo_lut_executor", "lut")
 
 Hands = Literal["right", "left", "both"]
 
 
-@dataclass(frozen=True, kw_only=True)
-class Teaching:
-    """A sign to be captured.
-
-    Attributes:
-        gloss: Its name.
-        hands: The hands that make it; None to see it in the film.
-        licence: The terms to which the person agreed.
-        notes: For the entry: who agreed to what.
-        accept: Whether to take it although a gate speaks against it, one level of evidence lower.
-        replace: Whether it may take the place of a sign of that name.
-    """
-
-    gloss: str
-    hands: Hands | None
-    licence: str
-    notes: str
-    accept: bool
-    replace: bool
-
-
 def list_signs() -> Command:
     """Every sign of the table, as JSON."""
-    return _reading("list", _TABLE_SECONDS, "list", "--json")
+    return _lut("list", _TABLE_SECONDS, "list", "--json")
 
 
 def nearest_signs(count: int) -> Command:
     """For each word those that look most like it, as JSON."""
-    return _reading(
-        "nearest", _NEAREST_SECONDS, "nearest", "--kind", "lexical", "--json", "--count", str(count)
-    )
+    return _lut("nearest", _NEAREST_SECONDS, "nearest", "--kind", "lexical", "--json", "--count", str(count))
 
 
 def coverage(text: str) -> Command:
     """Which words of a text are signed, and what to record next, as JSON."""
-    return _reading("coverage", _TEXT_SECONDS, "coverage", "--text", text, "--json")
+    return _lut("coverage", _TEXT_SECONDS, "coverage", "--text", text, "--json")
 
 
 def film(gloss: str, out: Path) -> Command:
     """A film of a sign."""
-    return _reading("film", _TABLE_SECONDS, "render", "--out", str(out), "--", gloss)
+    return _lut("film", _TABLE_SECONDS, "render", "--out", str(out), "--", gloss)
 
 
 def translate(text: str) -> Command:
@@ -79,7 +85,7 @@ def translate(text: str) -> Command:
 
 def enter_reviews(export: Path) -> Command:
     """Enter an export of reviews into the user's own table; what came of it as JSON."""
-    return _reading("enter", _TABLE_SECONDS, "review", str(export), "--json")
+    return _lut("enter", _TABLE_SECONDS, "review", str(export), "--json")
 
 
 def plan(glosses: str, out: Path) -> Command:
@@ -88,34 +94,48 @@ def plan(glosses: str, out: Path) -> Command:
     return Command(name="plan", arguments=arguments, limits=Limits(seconds=_TABLE_SECONDS, memory=_MEMORY))
 
 
-def capture(recording: Path, cache: Path, teaching: Teaching, *, trial: Path | None) -> Command:
+def capture(
+    recording: Path,
+    cache: Path,
+    *,
+    gloss: str,
+    hands: Hands | None,
+    licence: str,
+    notes: str = "",
+    accept: bool,
+    replace: bool,
+    trial: Path | None = None,
+) -> Command:
     """A sign from a recording, as JSON.
 
     Args:
         recording: Film or bag.
         cache: Where points that were found in it are kept for the next time.
-        teaching: What it is to become.
+        gloss: Name of the sign.
+        hands: The hands that make it; None to see it in the film.
+        licence: The terms to which the person agreed.
+        notes: For the entry: who agreed to what.
+        accept: Whether to take it although a gate speaks against it, one level of evidence lower.
+        replace: Whether it may take the place of a sign of that name.
         trial: Directory to write to instead of the user's own table.
     """
-    options = ["--gloss", teaching.gloss, "--licence", teaching.licence, "--cache", str(cache), "--json"]
-    options += ["--notes", teaching.notes] if teaching.notes else []
-    options += ["--hands", teaching.hands] if teaching.hands else []
-    options += ["--accept"] if teaching.accept else []
-    options += ["--replace"] if teaching.replace else []
+    options = ["--gloss", gloss, "--licence", licence, "--cache", str(cache), "--json"]
+    options += ["--notes", notes] if notes else []
+    options += ["--hands", hands] if hands else []
+    options += ["--accept"] if accept else []
+    options += ["--replace"] if replace else []
     options += ["--trial", str(trial)] if trial else []
     # The page shows the film itself, and the robot in motion.
-    return _looking("capture", "capture", str(recording), "--no-draw", *options)
+    return _lut("capture", _FILM_SECONDS, "capture", str(recording), "--no-draw", *options)
 
 
 def recognise(recording: Path, cache: Path, meant: str) -> Command:
     """Which signs a recording looks like, and what differs from the one that was meant, as JSON."""
     options = ("--meant", meant, "--cache", str(cache), "--json")
-    return _looking("recognise", "recognise", str(recording), *options)
+    return _lut("recognise", _FILM_SECONDS, "recognise", str(recording), *options)
 
 
-def _reading(name: str, seconds: float, *arguments: str) -> Command:
-    return Command(name=name, arguments=(*_LUT, *arguments), limits=Limits(seconds=seconds, memory=_MEMORY))
-
-
-def _looking(name: str, *arguments: str) -> Command:
-    return _reading(name, _FILM_SECONDS, *arguments)
+def _lut(name: str, seconds: float, *arguments: str) -> Command:
+    return Command(
+        name=name, arguments=(*_LUT_COMMAND, *arguments), limits=Limits(seconds=seconds, memory=_MEMORY)
+    )

@@ -1,21 +1,20 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""A subscription that fits itself to the publishers of its topic, those that come later included."""
+"""Receiving messages by subscriptions that fit themselves to their publishers, later ones included."""
 
 from __future__ import annotations
 
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import replace
 from typing import Any
 
-from teo_ros2cli.bags.qos_record import QosRecord, request_for, serves
-from teo_ros2cli.graph.qos import from_record, to_record
+from teo_ros2cli.qos import QosRecord, from_record, request_for, serves, to_record
 
 # Messages that may wait in the middleware while Python is busy elsewhere: 10 s of a topic at 100 Hz. The
 # queue drops its oldest when full, so that a slow receiver never holds a publisher back.
-QUEUE_DEPTH = 1000
+_QUEUE_DEPTH = 1000
 # Messages whose identity is kept to know one that comes a second time: more than any latched topic keeps.
 _REMEMBERED = 2000
 
@@ -24,7 +23,7 @@ _REMEMBERED = 2000
 _OVERLAP = 5.0
 
 # Takes a message (bytes if raw) and rclpy's information on it.
-Receiver = Callable[[Any, dict[str, Any]], None]
+_Receiver = Callable[[Any, dict[str, Any]], None]
 
 
 class AdaptiveSubscription:
@@ -54,7 +53,7 @@ class AdaptiveSubscription:
         node: Any,
         topic: str,
         message_class: Any,
-        receive: Receiver,
+        receive: _Receiver,
         *,
         fixed: QosRecord | None = None,
         raw: bool = False,
@@ -137,7 +136,7 @@ class AdaptiveSubscription:
     def _subscribe(self) -> Any:
         from rclpy.event_handler import SubscriptionEventCallbacks, UnsupportedEventTypeError
 
-        profile = from_record(replace(self.request, depth=max(self.request.depth, QUEUE_DEPTH)))
+        profile = from_record(replace(self.request, depth=max(self.request.depth, _QUEUE_DEPTH)))
         lost = self._lost
         told = None if lost is None else lambda status: lost(status.total_count_change)
         for callback in (told, None):
@@ -182,3 +181,54 @@ class _Repetitions:
         if len(self._order) > _REMEMBERED:
             self._seen.discard(self._order.popleft())
         return True
+
+
+# Interval of fitting the subscriptions to their publishers [s].
+_FITTING = 0.1
+
+# What every publisher serves: for measuring, where a message that was lost is part of the result.
+ANYTHING = QosRecord(reliability="best_effort")
+
+
+def listen(
+    node: Any,
+    subscriptions: Collection[AdaptiveSubscription],
+    *,
+    until: Callable[[], bool] = lambda: False,
+    deadline: float | None = None,
+    every: tuple[float, Callable[[], None]] | None = None,
+) -> None:
+    """Let subscriptions receive; a context that is shut down ends it with rclpy's exception for that.
+
+    Args:
+        node: The node that they belong to.
+        subscriptions: The subscriptions.
+        until: Asked after each step; True ends.
+        deadline: Moment of the steady clock at which to end [s], None for never.
+        every: A period [s] and what to do in it.
+    """
+    from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+
+    if every is not None:
+        # Of this machine's time: a simulated clock may stand still.
+        from rclpy.clock import Clock
+        from rclpy.clock_type import ClockType
+
+        node.create_timer(*every, clock=Clock(clock_type=ClockType.STEADY_TIME))
+    executor = SingleThreadedExecutor(context=node.context)
+    executor.add_node(node)
+    fitted = 0.0
+    try:
+        while not until():
+            now = time.monotonic()
+            if deadline is not None and now >= deadline:
+                return
+            if now - fitted >= _FITTING:
+                fitted = now
+                for subscription in subscriptions:
+                    subscription.adapt()
+            executor.spin_once(timeout_sec=_FITTING if deadline is None else min(_FITTING, deadline - now))
+            if not node.context.ok():
+                raise ExternalShutdownException  # SIGTERM
+    finally:
+        executor.remove_node(node)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from msgspec.structs import replace
 
-from teo_console.protocol.to_page import Caption, ExecutorState, Progress, Sentence
+from teo_console.protocol import Caption, ExecutorState, Progress, Sentence
 
 # Sentences that can be looked back at: a lesson's worth, and few enough to be sent whole.
 HISTORY = 30
@@ -50,7 +50,7 @@ class PathReport:
     """Of the trajectory [s]; None while there is none."""
 
 
-class SentenceProgress:
+class _SentenceProgress:
     """Follows a sentence's motion: by the driver's word where there is one, else by clock and speed."""
 
     def __init__(self, duration: float, began: float, speed: float) -> None:
@@ -92,7 +92,7 @@ class Sentences:
         """Begin without a sentence."""
         self._announced: dict[_Key, Sentence] = {}
         self._current: Sentence | None = None
-        self._progress: SentenceProgress | None = None
+        self._progress: _SentenceProgress | None = None
         self._history: deque[Sentence] = deque(maxlen=HISTORY)
         self._speed = 1.0
 
@@ -102,7 +102,7 @@ class Sentences:
         return self._current
 
     @property
-    def progress(self) -> SentenceProgress | None:
+    def progress(self) -> _SentenceProgress | None:
         """How far that is."""
         return self._progress
 
@@ -144,7 +144,7 @@ class Sentences:
             self._end_current()
         known = self._current or self._take(report.key)
         if self._current is None or self._progress is None:
-            self._progress = SentenceProgress(report.duration, report.stamp, self._speed)
+            self._progress = _SentenceProgress(report.duration, report.stamp, self._speed)
         self._current = replace(
             known, state="signing", captions=report.captions, duration=report.duration, code="", message=""
         )

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""`ros2 multicast`: whether datagrams to a group, by which participants find each other, pass a network."""
+"""`ros2 multicast` and `ros2 daemon`: how participants find each other."""
 
 from __future__ import annotations
 
@@ -10,14 +10,9 @@ import socket
 import struct
 from collections.abc import Iterator
 
-from teo_ros2cli.cli.dispatch import Entry
 from teo_ros2cli.cli.options import non_negative_int, positive_float, positive_int
 from teo_ros2cli.errors import Ros2CliError
 
-VERBS = {
-    "receive": Entry(__name__, "Receive a single UDP multicast packet", "receive"),
-    "send": Entry(__name__, "Send a single UDP multicast packet", "send"),
-}
 # The genuine command's, so that the two find each other.
 _GROUP, _PORT = "225.0.0.1", 49150
 _TEXT = b"Hello World!"
@@ -96,3 +91,15 @@ def _socket(options: argparse.Namespace) -> Iterator[socket.socket]:
     except OSError as error:
         where = f"{options.group}:{options.port}"
         raise Ros2CliError("multicast_failed", f"Multicast to {where} is not possible: {error}") from error
+
+
+def run_daemon_start(_options: argparse.Namespace) -> int:
+    """Say that there is nothing to start."""
+    print("There is no daemon to start: every command discovers the graph itself")
+    return 0
+
+
+def run_daemon_status(_options: argparse.Namespace) -> int:
+    """Say that no daemon runs."""
+    print("The daemon is not running")
+    return 0

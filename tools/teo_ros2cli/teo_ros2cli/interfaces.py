@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Definitions of interfaces from the installed files, and their hashes. Needs no ROS running.
+"""Interfaces that are installed: their names, definitions, hashes and Python classes. Needs no ROS running.
 
 A definition is given in two forms: as it is shown to people, nested types expanded, and as one text with all
 that it depends on, the `ros2msg` schema encoding of MCAP: the text of the message first, then each dependency
@@ -10,13 +10,92 @@ well-known schema encodings).
 
 from __future__ import annotations
 
+import importlib
 import json
 import re
-from collections.abc import Iterator
-from typing import NamedTuple
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
 
 from teo_ros2cli.errors import Ros2CliError
-from teo_ros2cli.packages import InterfaceName, interface_file, package_prefix
+from teo_ros2cli.packages import INDEX, package_prefix, resources
+
+INTERFACE_KINDS = ("msg", "srv", "action")
+
+
+class InterfaceName(NamedTuple):
+    """Name of an interface: package, kind (`msg`, `srv`, `action`) and type, as in `std_msgs/msg/String`."""
+
+    package: str
+    kind: str
+    type: str
+
+    def __str__(self) -> str:
+        return f"{self.package}/{self.kind}/{self.type}"
+
+    @classmethod
+    def parse(cls, text: str, default_kind: str = "msg") -> InterfaceName:
+        """Read `pkg/kind/Type`, or `pkg/Type` with the kind that the caller expects.
+
+        Raises:
+            Ros2CliError: `invalid_type`, the text is not of either form.
+        """
+        parts = text.split("/")
+        if len(parts) == 2:
+            parts.insert(1, default_kind)
+        if (
+            len(parts) != 3
+            or not all(part.isidentifier() for part in parts)
+            or parts[1] not in INTERFACE_KINDS
+        ):
+            raise Ros2CliError(
+                "invalid_type",
+                f"The passed {_KIND_WORDS[default_kind]} type is invalid: expected a name such as "
+                f"'{_EXAMPLES[default_kind]}', got {text!r}",
+            )
+        return cls(*parts)
+
+
+_KIND_WORDS = {"msg": "message", "srv": "service", "action": "action"}
+_EXAMPLES = {
+    "msg": "std_msgs/msg/String",
+    "srv": "std_srvs/srv/Trigger",
+    "action": "example_interfaces/action/Fibonacci",
+}
+
+
+def interfaces(kind: str) -> Mapping[str, list[str]]:
+    """Map each package that has interfaces of a kind (`msg`, `srv`, `action`) to its sorted type names."""
+    found: dict[str, list[str]] = {}
+    for package, prefix in sorted(resources("rosidl_interfaces").items()):
+        listing = (prefix / INDEX / "rosidl_interfaces" / package).read_text(encoding="utf-8")
+        names = {
+            Path(line).stem
+            for line in listing.splitlines()
+            if line.startswith(f"{kind}/") and Path(line).suffix in (f".{kind}", ".idl")
+        }
+        # Services and actions generate messages of their own; these are not interfaces that someone wrote.
+        names = {name for name in names if "_" not in name}
+        if names:
+            found[package] = sorted(names)
+    return found
+
+
+def interface_file(name: InterfaceName) -> Path:
+    """Return the file that defines an interface, the `.msg`, `.srv` or `.action` text before the `.idl`.
+
+    Raises:
+        Ros2CliError: `package_not_found`, or `interface_not_found`.
+    """
+    folder = package_prefix(name.package) / "share" / name.package / name.kind
+    for suffix in (name.kind, "idl"):
+        path = folder / f"{name.type}.{suffix}"
+        if path.is_file():
+            return path
+    raise Ros2CliError(
+        "interface_not_found", f"Unknown interface '{name}': there is no {name.type} in {folder}"
+    )
+
 
 SEPARATOR = "=" * 80
 _FEEDBACK = "_FeedbackMessage"
@@ -105,7 +184,7 @@ def schema_of(type_name: str) -> Schema:
 def _feedback_schema(package: str, action: str, type_name: str) -> Schema:
     # An action's feedback travels in a message that no file defines: the goal's identifier and the feedback.
     definition = _text(InterfaceName(package, "action", action))
-    parts = split_sections(definition)
+    parts = _split_sections(definition)
     if len(parts) != 3:
         raise Ros2CliError(
             "interface_not_found", f"'{package}/action/{action}' has {len(parts)} sections, expected 3"
@@ -137,7 +216,7 @@ def _text(name: InterfaceName) -> str:
     return interface_file(name).read_text(encoding="utf-8")
 
 
-def split_sections(definition: str) -> list[str]:
+def _split_sections(definition: str) -> list[str]:
     """Split a service or action definition at its lines of three dashes."""
     sections: list[list[str]] = [[]]
     for line in definition.splitlines(keepends=True):
@@ -159,3 +238,52 @@ def installed_type_hash(type_name: str) -> str:
         return next((str(entry["hash_string"]) for entry in hashes if entry["type_name"] == type_name), "")
     except (Ros2CliError, OSError, ValueError, KeyError, TypeError):
         return ""
+
+
+def interface_class(text: str, kind: str) -> Any:
+    """Load the class of a message, service or action.
+
+    Args:
+        text: Name such as `std_msgs/msg/String` or, shorter, `std_msgs/String`.
+        kind: What is expected: `msg`, `srv` or `action`.
+
+    Raises:
+        Ros2CliError: `invalid_type`, the name has a wrong form or the type is not installed.
+    """
+    name = InterfaceName.parse(text, kind)
+    if name.kind != kind:
+        raise Ros2CliError(
+            "invalid_type", f"The passed type is invalid: expected a {kind} type, got '{name}'"
+        )
+    try:
+        return getattr(importlib.import_module(f"{name.package}.{name.kind}"), name.type)
+    except ModuleNotFoundError as error:
+        raise Ros2CliError(
+            "invalid_type", f"The passed type '{name}' is invalid: package '{name.package}' is not installed"
+        ) from error
+    except AttributeError as error:
+        raise Ros2CliError(
+            "invalid_type", f"The passed type '{name}' is invalid: package '{name.package}' has no such type"
+        ) from error
+    except ImportError as error:
+        raise Ros2CliError("invalid_type", f"The passed type '{name}' cannot be loaded: {error}") from error
+
+
+def message_class(text: str) -> Any:
+    """Load the class of a message type, `pkg/action/Name_FeedbackMessage` of actions included.
+
+    Raises:
+        Ros2CliError: `invalid_type`.
+    """
+    parts = text.split("/")
+    if len(parts) == 3 and parts[1] == "action" and parts[2].endswith("_FeedbackMessage"):
+        action = interface_class(text.removesuffix("_FeedbackMessage"), "action")
+        return action.Impl.FeedbackMessage
+    return interface_class(text, "msg")
+
+
+def interface_name_of(message: Any) -> str:
+    """Return the name of a message's type, such as `std_msgs/msg/String`; takes a message or its class."""
+    cls = message if isinstance(message, type) else type(message)
+    package, kind = cls.__module__.split(".")[:2]
+    return f"{package}/{kind}/{cls.__name__}"
