@@ -27,8 +27,7 @@ from signs.score_clips import Draw
 from signs.shown_takes import EXACT, FILMED, LIFTED, ShownTake, shown_takes, sign_joints
 from teo_common.arrays import Array
 from teo_description.robot import Robot
-from teo_sign_capture.recognition.appearance import sign_appearance
-from teo_sign_capture.recognition.sign_index import SignIndex
+from teo_sign_capture.recognition import SignIndex, sign_appearance
 from teo_signs.likeness import nearest_pairs
 from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign import Sign

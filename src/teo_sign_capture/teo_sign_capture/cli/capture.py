@@ -47,8 +47,7 @@ from teo_signs.look_up_table import user_lut_directory
 from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP
 
 if TYPE_CHECKING:  # they take a second to load, which the other commands of `lut` need not wait for
-    from teo_sign_capture.entries.bag_capture import CaptureJob, Settings
-    from teo_sign_capture.entries.outcome import Outcome
+    from teo_sign_capture.entries.bag_capture import CaptureJob, Outcome, Settings
 
 
 def capture(
@@ -146,7 +145,7 @@ def _check_robot(name: str) -> None:
 def _filmed(camera: int, gloss: str, seconds: float, reporter: Reporter) -> Path:
     """Film a sign with a webcam, counting down, and return the film, which is kept."""
     from teo_sign_capture.recordings.recording import default_cache
-    from teo_sign_capture.recordings.webcam import film_name, film_webcam
+    from teo_sign_capture.recordings.video import film_name, film_webcam
 
     out = film_name(default_cache().parent / "recordings", gloss)
     return film_webcam(camera, out, seconds=seconds, on_state=reporter.camera)
@@ -154,8 +153,7 @@ def _filmed(camera: int, gloss: str, seconds: float, reporter: Reporter) -> Path
 
 def _capture_one(job: CaptureJob, settings: Settings, reporter: Reporter) -> None:
     from teo_description.robot import Robot
-    from teo_sign_capture.entries.bag_capture import capture_bags
-    from teo_sign_capture.entries.outcome import captured_outcome
+    from teo_sign_capture.entries.bag_capture import capture_bags, captured_outcome
 
     with reporter:
         saved = capture_bags(Robot.load(settings.robot), job, settings, reporter.progress)
@@ -165,8 +163,8 @@ def _capture_one(job: CaptureJob, settings: Settings, reporter: Reporter) -> Non
 def _capture_all(
     jobs: list[CaptureJob], settings: Settings, count: int, dask: str | None, reporter: Reporter
 ) -> None:
+    from teo_sign_capture.entries.bag_capture import failures
     from teo_sign_capture.entries.batch import run_jobs, workers
-    from teo_sign_capture.entries.outcome import failures
 
     ended: list[Outcome] = []
 

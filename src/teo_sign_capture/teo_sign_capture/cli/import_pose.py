@@ -115,8 +115,7 @@ def import_pose(
         fail(LutError("bad_arguments", "expected FILE.pose --gloss GLOSS, or --signwriting FILE"))
 
     from teo_description.robot import Robot
-    from teo_sign_capture.entries.bag_capture import CaptureJob, Settings, capture_bags
-    from teo_sign_capture.entries.outcome import captured_outcome
+    from teo_sign_capture.entries.bag_capture import CaptureJob, Settings, capture_bags, captured_outcome
     from teo_sign_capture.entries.take import Cut
     from teo_signs.look_up_table import user_lut_directory
 

@@ -21,13 +21,16 @@ from pathlib import Path
 from typing import Any, get_args
 
 from teo_description.robot import Robot
-from teo_sign_capture.entries.bag_capture import CaptureJob, Settings, capture_bags, is_captured
-from teo_sign_capture.entries.outcome import (
+from teo_sign_capture.entries.bag_capture import (
     CRASHED,
     UNCHANGED,
+    CaptureJob,
     Outcome,
+    Settings,
+    capture_bags,
     captured_outcome,
     failed_outcome,
+    is_captured,
 )
 from teo_sign_capture.entries.take import Cut
 from teo_sign_capture.recordings.recording import is_recording

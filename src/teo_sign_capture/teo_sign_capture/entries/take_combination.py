@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
 from teo_common.arrays import Array
+from teo_common.dynamic_programming import warp
 from teo_description.humanoid import Side
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.robot_motion import RobotMotion
-from teo_sign_capture.time_warp import warp
 from teo_signs.errors import LutError
 
 _SIDES: tuple[Side, Side] = ("right", "left")

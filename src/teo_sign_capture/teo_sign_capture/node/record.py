@@ -57,11 +57,11 @@ def record(
     from teo_description.robot import Robot
     from teo_sign_capture.entries.bag_capture import (
         Settings,
+        captured_outcome,
         check_free,
         default_recordings,
         keep_and_capture,
     )
-    from teo_sign_capture.entries.outcome import captured_outcome
 
     try:
         table = lut or user_lut_directory()

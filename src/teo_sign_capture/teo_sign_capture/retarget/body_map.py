@@ -26,9 +26,8 @@ from teo_description.humanoid import Humanoid
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.head_motion import HeadMotion
-from teo_sign_capture.signing_space.hand_points import MIRROR
-from teo_sign_capture.signing_space.places import find_place
-from teo_sign_capture.tracks.person import Person
+from teo_sign_capture.signing_space import MIRROR, find_place
+from teo_sign_capture.tracks.signer_motion import Person
 
 # Share of the way from the shoulders to the hips at which the waist is.
 _WAIST = 0.7

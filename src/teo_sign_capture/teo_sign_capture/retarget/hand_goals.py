@@ -26,7 +26,7 @@ from teo_description.humanoid import Side
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, arm_bounds
 from teo_sign_capture.retarget.body_map import BodyMap, smooth_step
 from teo_sign_capture.retarget.head_motion import HeadMotion
-from teo_sign_capture.signing_space.hand_points import COUNT, HEEL, MIRROR, PALM
+from teo_sign_capture.signing_space import COUNT, HEEL, MIRROR, PALM
 from teo_sign_capture.tracks.signer_motion import SignerArm
 
 # [m] Points of a hand whose distances to the body differ by less than this share the contact: about a

@@ -22,9 +22,8 @@ from numpy.typing import NDArray
 
 from teo_common.arrays import Array
 from teo_sign_capture.retarget.body_map import BodyMap
-from teo_sign_capture.signing_space.hand_points import MIRROR
-from teo_sign_capture.signing_space.places import find_place
-from teo_sign_capture.tracks.person import Person
+from teo_sign_capture.signing_space import MIRROR, find_place
+from teo_sign_capture.tracks.signer_motion import Person
 
 Flags = NDArray[np.bool_]
 

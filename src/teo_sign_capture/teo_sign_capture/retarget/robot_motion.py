@@ -41,7 +41,7 @@ from teo_sign_capture.retarget.hand_goals import (
 from teo_sign_capture.retarget.hand_motion import HandMotion, follow_hand
 from teo_sign_capture.retarget.head_motion import HeadMotion, follow_head, follow_trunk
 from teo_sign_capture.retarget.place_figures import place_figures
-from teo_sign_capture.signing_space.hand_points import robot_hand_points
+from teo_sign_capture.signing_space import robot_hand_points
 from teo_sign_capture.tracks.signer_motion import SignerMotion
 
 _COLUMN = {"right": 0, "left": 1}

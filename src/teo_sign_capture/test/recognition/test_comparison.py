@@ -16,8 +16,7 @@ from typer.testing import CliRunner
 from teo_description.robot import Robot
 from teo_lut_executor.cli.lut import app
 from teo_names import RIGHT_HAND
-from teo_sign_capture.recognition.appearance import HAND, PARTS, sign_appearance
-from teo_sign_capture.recognition.sign_index import Comparison, compare
+from teo_sign_capture.recognition import HAND, PARTS, Comparison, compare, sign_appearance
 from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign import Sign
 

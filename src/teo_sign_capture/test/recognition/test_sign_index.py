@@ -18,8 +18,13 @@ from typer.testing import CliRunner, Result
 from teo_description.robot import Robot
 from teo_lut_executor.cli.lut import app
 from teo_names import RIGHT_HAND
-from teo_sign_capture.recognition.appearance import MOMENTS, recording_appearance, sign_appearance
-from teo_sign_capture.recognition.sign_index import SignIndex, similar_signs
+from teo_sign_capture.recognition import (
+    MOMENTS,
+    SignIndex,
+    recording_appearance,
+    sign_appearance,
+    similar_signs,
+)
 from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign import Sign
 from teo_signs.sign_file import save_sign

@@ -19,16 +19,20 @@ from pose_format import Pose
 from pose_format.numpy import NumPyPoseBody
 from pose_format.pose_header import PoseHeader, PoseHeaderComponent, PoseHeaderDimensions
 from pose_format.utils.openpose import OpenPose_Components
+from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner, Result
 
 from teo_common.arrays import Array
 from teo_lut_executor.cli.lut import app
 from teo_sign_authoring.alphabet.letter_clips import load_letter_clips
 from teo_sign_capture.recordings import pose_file
-from teo_sign_capture.recordings.pose_file import PoseClip, read_pose_file
+from teo_sign_capture.recordings.pose_file import read_pose_file
+from teo_sign_capture.recordings.skeleton_bag import read_skeletons
 from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 from teo_signs.errors import LutError
+from teo_skeleton_retriever.lifting.clip import PoseClip
 
+SHIPPED = Path(__file__).resolve().parents[4] / "bags" / "signer_d435"
 # MediaPipe's names, as its documentation gives them.
 SIDED = (
     "SHOULDER",
@@ -117,7 +121,6 @@ def code_of(path: Path, **options: Any) -> str:
 def test_places_are_forward_left_and_up(tmp_path: Path) -> None:
     clip = read_pose_file(write(tmp_path / "a.pose"))
     assert clip.rate == 25.0
-    assert clip.layout == "MediaPipe Holistic"
     left, right = clip.body.places[0, 5], clip.body.places[0, 2]
     np.testing.assert_allclose(left, [-0.1, 400.0, -200.0], atol=1e-4)
     np.testing.assert_allclose(right, [-0.1, 240.0, -200.0], atol=1e-4)
@@ -163,7 +166,6 @@ def openpose(frames: int = 5) -> tuple[list[PoseHeaderComponent], Array]:
 
 def test_openpose_is_read_and_has_no_depth(tmp_path: Path) -> None:
     clip = read_pose_file(write(tmp_path / "o.pose", *openpose()))
-    assert clip.layout == "OpenPose"
     np.testing.assert_allclose(clip.body.places[0, 2, 1:], [240.0, -200.0])
     np.testing.assert_allclose(clip.right_hand.places[0, 20, 1:], [220.0, -230.0])
     assert np.isnan(clip.right_hand.places[..., 0]).all()
@@ -258,6 +260,25 @@ def test_shoulders_that_a_detector_confused_are_not_a_person_from_behind(tmp_pat
     left, right = names.index("LEFT_SHOULDER"), names.index("RIGHT_SHOULDER")
     data[:, :, [left, right]] = data[:, :, [right, left]]
     assert read_pose_file(write(tmp_path / "confused.pose", HOLISTIC, data)).body.seen.any()
+
+
+@pytest.mark.parametrize("turn", range(0, 360, 40))
+def test_who_turns_the_back_to_the_camera_is_refused(tmp_path: Path, turn: float) -> None:
+    """By the signer's skeleton turned on the spot; sideways, from 70 to 110 deg, is left to chance."""
+    truth = read_skeletons(SHIPPED, topic="/truth/skeletons").between(0.0, 2.0)
+    places = np.concatenate(
+        [part.positions for part in (truth.body, truth.left_hand, truth.right_hand)], axis=1
+    )
+    turned = Rotation.from_euler("z", turn, degrees=True).apply(places.reshape(-1, 3)).reshape(places.shape)
+    seen = np.zeros((*places.shape[:2], 4))
+    seen[..., 0], seen[..., 1] = 320.0 + 300.0 * turned[..., 1], 240.0 - 300.0 * turned[..., 2]
+    seen[..., 3] = np.isfinite(turned).all(axis=2)
+    file = tmp_path / "turned.pose"
+    file.write_bytes(pose_file.pose_file(15.0, np.nan_to_num(seen), (640, 480)))
+    if abs(turn - 180.0) <= 70.0:
+        assert code_of(file) == "seen_from_behind"
+    elif abs(turn - 180.0) >= 110.0:
+        assert read_pose_file(file).body.seen.any()
 
 
 def test_no_file_no_bytes_and_too_many_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

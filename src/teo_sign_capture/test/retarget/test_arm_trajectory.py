@@ -13,7 +13,7 @@ from teo_sign_capture.retarget.arm_residuals import ArmProblem
 from teo_sign_capture.retarget.arm_trajectory import refine_arms, solve_arms
 from teo_sign_capture.retarget.collision_terms import WANTED, CollisionTerms
 from teo_sign_capture.retarget.hand_goals import HandGoals, PairGoals
-from teo_sign_capture.signing_space.hand_points import MIRROR
+from teo_sign_capture.signing_space import MIRROR
 
 TIMES = np.arange(40) / 30.0
 BOUNDS = [arm_bounds(load_humanoid(), "right"), arm_bounds(load_humanoid(), "left")]

@@ -13,10 +13,9 @@ from teo_description.robot import Robot
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.body_map import BodyMap, WorkspaceScaling, body_boxes, on_skin
 from teo_sign_capture.retarget.head_motion import follow_head
-from teo_sign_capture.signing_space.hand_points import MIRROR
-from teo_sign_capture.signing_space.places import find_place
+from teo_sign_capture.signing_space import MIRROR, find_place
 from teo_sign_capture.tracks.head_pose import head_pose
-from teo_sign_capture.tracks.person import measure_person
+from teo_sign_capture.tracks.signer_motion import measure_person
 
 
 @pytest.fixture(scope="module")

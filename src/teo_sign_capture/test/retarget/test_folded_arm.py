@@ -12,8 +12,7 @@ from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
 from teo_sign_authoring.alphabet.letter_clips import load_letter_clips
 from teo_sign_capture.entries.take import capture_take
-from teo_sign_capture.lifting.clip import lift_clip
-from teo_sign_capture.recordings.recording import open_recording, points_of
+from teo_sign_capture.recordings.recording import open_recording, track_of
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, arm_bounds
 from teo_sign_capture.retarget.hand_goals import HandGoals, before_folded_arm
 from teo_sign_languages import DEFAULT_LANGUAGE, load_language
@@ -67,7 +66,7 @@ def test_what_is_too_near_goes_forwards_as_far_as_a_folded_arm_and_a_touch_stays
 def test_a_letter_held_beside_the_shoulder_stands_up(robot, tmp_path: Path):
     folder = Path(str(resources.files("spoken_to_signed"))) / "assets" / "fingerspelling_lexicon" / "ssp"
     clip = open_recording(folder / load_letter_clips(load_language(DEFAULT_LANGUAGE))["L"].file)
-    motion = capture_take(robot, lift_clip(points_of(clip, cache=tmp_path))).motion
+    motion = capture_take(robot, track_of(clip, cache=tmp_path)[0]).motion
     # An L that is tilted by half a right angle is read as another letter.
     assert np.degrees(np.nanmax(motion.finger_error)) < 45.0
     assert np.degrees(np.nanmax(motion.palm_error)) < 45.0

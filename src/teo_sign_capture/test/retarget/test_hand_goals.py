@@ -12,10 +12,9 @@ from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.body_map import BodyMap
 from teo_sign_capture.retarget.hand_goals import contact_part, hand_goals, pair_goals
 from teo_sign_capture.retarget.head_motion import follow_head
-from teo_sign_capture.signing_space.hand_points import MIRROR, PALM, robot_hand_points
+from teo_sign_capture.signing_space import MIRROR, PALM, robot_hand_points
 from teo_sign_capture.tracks.head_pose import head_pose
-from teo_sign_capture.tracks.person import measure_person
-from teo_sign_capture.tracks.signer_motion import signer_arm
+from teo_sign_capture.tracks.signer_motion import measure_person, signer_arm
 
 # Among the points of a hand: palm, heel, four knuckles, four middle joints, then the tips.
 INDEX_TIP = 10

@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 from robot_person import part
 from scipy.spatial.transform import Rotation
 
-from teo_sign_capture.tracks.body_axes import in_body_axes
-from teo_sign_capture.tracks.skeleton_track import Keypoints
+from teo_sign_capture.tracks.skeleton_track import Keypoints, in_body_axes
 from teo_signs.errors import LutError
 
 TIMES = np.arange(60) / 30.0

@@ -11,7 +11,7 @@ import numpy as np
 from teo_common.arrays import Array
 from teo_description.humanoid import Humanoid
 from teo_description.robot import Robot
-from teo_sign_capture.signing_space.places import find_place
+from teo_sign_capture.signing_space import find_place
 
 # [m] What the face reaches beyond its places: below the chin, to the side of an ear, behind the mouth, which
 # is on the surface that counts in a collision; it ends so much below the crown.

@@ -19,9 +19,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_sign_capture.tracks.hand_shape import WRIST
 from teo_sign_languages import Language
 from teo_signs.errors import LutError
+from teo_skeleton_retriever.lifting.hand_axes import WRIST
 
 PACKAGE = "spoken-to-signed"
 LICENCE = "MIT"

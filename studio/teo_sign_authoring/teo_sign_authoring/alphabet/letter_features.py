@@ -15,8 +15,8 @@ import numpy as np
 from teo_common.arrays import Array
 from teo_sign_authoring.alphabet.letter_clips import LetterClip
 from teo_sign_authoring.alphabet.stroke import find_stroke
-from teo_sign_capture.tracks.hand_shape import KNUCKLES, THUMB, palm_axes
 from teo_signs.likeness import SEEN_ANGLE, SEEN_LENGTH
+from teo_skeleton_retriever.lifting.hand_axes import KNUCKLES, THUMB, palm_axes
 
 # [m] Movement is seen where a difference in place is not. Between half and a third of a finger's thickness
 # letters pass for their own recording alike; at a whole one still letters pass for those that differ by

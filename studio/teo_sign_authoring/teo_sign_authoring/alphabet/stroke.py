@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from teo_common.arrays import Array
 from teo_sign_authoring.alphabet.letter_clips import LetterClip
-from teo_sign_capture.tracks.hand_shape import INDEX, KNUCKLES, PALM, WRIST, palm_axes
+from teo_skeleton_retriever.lifting.hand_axes import INDEX, KNUCKLES, PALM, WRIST, palm_axes
 
 # Figures below are in pixels of the normalised clips, where wrist to middle knuckle is 59 pixels, and in
 # degrees; "still" and "moving" letters lie well apart on each, as said there.

@@ -19,13 +19,13 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from teo_common.arrays import Array
+from teo_common.dynamic_programming import warp
 from teo_description.hand_geometry import HandGeometry
 from teo_description.robot import Robot
 from teo_sign_authoring.alphabet.letter_features import features
 from teo_sign_authoring.alphabet.spelling_arm import spelling_bounds
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.knots import least_clearance
-from teo_sign_capture.time_warp import warp
 from teo_signs.sign import Sign
 
 # [rad] The palm turns by this much about any axis: what is just seen (`teo_signs.likeness`), a third of the

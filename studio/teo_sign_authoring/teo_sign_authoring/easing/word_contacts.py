@@ -13,7 +13,7 @@ from teo_description.humanoid import SIDES
 from teo_description.robot import Robot
 from teo_sign_authoring.easing.word_arms import ALONG, DIRECTIONS, Rows, WordArms
 from teo_sign_capture.retarget.arm_kinematics import ArmPoses
-from teo_sign_capture.signing_space.places import find_place
+from teo_sign_capture.signing_space import find_place
 
 # [m] Differences of distances below this are none.
 _ROUNDING = 5e-4

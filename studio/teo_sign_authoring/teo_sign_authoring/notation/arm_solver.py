@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from teo_common.arrays import Array
+from teo_common.dynamic_programming import cheapest_path
 from teo_description.hand_geometry import HandGeometry
 from teo_description.robot import Robot
 from teo_sign_authoring.notation.targets import HandTarget
@@ -28,7 +29,6 @@ from teo_sign_capture.retarget.arm_kinematics import (
 from teo_sign_capture.retarget.arm_residuals import ArmProblem, ArmWeights
 from teo_sign_capture.retarget.arm_trajectory import search_arms
 from teo_sign_capture.retarget.hand_goals import HandGoals
-from teo_sign_capture.viterbi import cheapest_path
 
 _WEIGHTS = ArmWeights(
     # 10 cm beside a place count as much as 80 deg of orientation where a hand meets something, as 29 deg in

@@ -24,7 +24,7 @@ import yaml
 from teo_common.arrays import Array
 from teo_sign_authoring.notation.score_schema import Circle, HandScore, Part, Score, Wiggle, flattened
 from teo_sign_authoring.notation.targets import circle_offsets, fingers_across
-from teo_sign_capture.signing_space.places import (
+from teo_sign_capture.signing_space import (
     OTHER_HAND,
     direction,
     displacement,

@@ -26,7 +26,7 @@ from teo_sign_capture.retarget.arm_kinematics import (
     mirrored_hand,
 )
 from teo_sign_capture.retarget.knots import clearance_mm, least_clearance, limit_margin_deg
-from teo_sign_capture.signing_space.hand_points import MIRROR
+from teo_sign_capture.signing_space import MIRROR
 from teo_signs.errors import LutError
 
 # [m] Least distance of parts of the robot in a sign: a touch is shown by a gap that nobody sees, and that the

@@ -22,7 +22,7 @@ from teo_sign_capture.retarget.arm_kinematics import (
     mirrored_hand,
 )
 from teo_sign_capture.retarget.hand_motion import axis_shares
-from teo_sign_capture.signing_space.hand_points import finger_rows
+from teo_sign_capture.signing_space import finger_rows
 
 # Fingers that swing, index 0.
 _FINGERS = ("index", "middle", "ring", "little")

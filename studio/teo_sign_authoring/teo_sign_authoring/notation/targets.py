@@ -22,7 +22,7 @@ from teo_sign_authoring.notation.score_schema import (
     Wiggle,
     flattened,
 )
-from teo_sign_capture.signing_space.places import OTHER_HAND, direction, displacement, find_place, split_place
+from teo_sign_capture.signing_space import OTHER_HAND, direction, displacement, find_place, split_place
 
 # [m] A hand that is farther than this from its place on the body is before it, not on it: its orientation
 # counts as in the air.

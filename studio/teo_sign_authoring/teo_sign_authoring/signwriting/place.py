@@ -19,7 +19,7 @@ from teo_sign_authoring.signwriting import symbol_groups as groups
 from teo_sign_authoring.signwriting.hands import WrittenHand
 from teo_sign_authoring.signwriting.page import CM_PER_PIXEL, Side, displacement_words, drawn_tip
 from teo_sign_authoring.signwriting.written_sign import Symbol
-from teo_sign_capture.signing_space.places import written_place
+from teo_sign_capture.signing_space import written_place
 
 _HEAD_RADIUS = 18.0  # [px]
 _PAGE_MIDDLE = np.array([500.0, 500.0])

@@ -24,8 +24,7 @@ from teo_sign_authoring.notation.score_file import read_scores
 from teo_sign_authoring.notation.score_retarget import score_sign
 from teo_sign_authoring.notation.score_schema import Score
 from teo_sign_authoring.transfer.entry_postures import entry_postures
-from teo_sign_capture.signing_space.hand_points import finger_rows
-from teo_sign_capture.signing_space.places import WRITTEN_FOR
+from teo_sign_capture.signing_space import WRITTEN_FOR, finger_rows
 from teo_sign_languages import Language
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import Lut

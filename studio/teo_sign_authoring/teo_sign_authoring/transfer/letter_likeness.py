@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from teo_common.arrays import Array
+from teo_common.dynamic_programming import warp
 from teo_description.hand_geometry import HandGeometry
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
@@ -23,8 +24,7 @@ from teo_motion.sentence.plan import sample_at
 from teo_motion.sentence.posture_choice import postures_of
 from teo_sign_authoring.alphabet.letter_features import features, recorded_features
 from teo_sign_authoring.alphabet.letters import read_alphabet
-from teo_sign_capture.signing_space.hand_points import finger_rows
-from teo_sign_capture.time_warp import warp
+from teo_sign_capture.signing_space import finger_rows
 from teo_sign_languages import Language
 from teo_signs.sign import Sign
 from teo_signs.tokens import Kind, Token

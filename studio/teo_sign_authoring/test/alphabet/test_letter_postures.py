@@ -26,9 +26,9 @@ from teo_sign_authoring.alphabet.spelling_hand import fit_robot_hand
 from teo_sign_authoring.alphabet.stroke import find_stroke
 from teo_sign_authoring.cli.capture_table import letters_main
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
-from teo_sign_capture.tracks.hand_shape import palm_axes
 from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 from teo_signs.look_up_table import Lut, LutError
+from teo_skeleton_retriever.lifting.hand_axes import palm_axes
 
 
 @pytest.fixture(scope="module")

@@ -9,7 +9,7 @@ import pytest
 
 from teo_sign_authoring.signwriting.page import orientation_of, written_side
 from teo_sign_authoring.signwriting.written_sign import read_fsw
-from teo_sign_capture.signing_space.places import direction
+from teo_sign_capture.signing_space import direction
 
 
 @pytest.mark.parametrize(
