@@ -46,7 +46,7 @@ LIFTED = (
 )
 
 # Told what is done, how much of it, of how much.
-StageProgress = Callable[[str, int, int], None]
+_StageProgress = Callable[[str, int, int], None]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -128,7 +128,7 @@ class Saved:
 
 
 def capture_bags(
-    robot: Robot, job: CaptureJob, settings: Settings, on_progress: StageProgress | None = None
+    robot: Robot, job: CaptureJob, settings: Settings, on_progress: _StageProgress | None = None
 ) -> Saved:
     """Capture a sign from its takes and save it.
 
@@ -149,7 +149,7 @@ def capture_bags(
         return _captured(robot, job, settings, on_progress)
 
 
-def _captured(robot: Robot, job: CaptureJob, settings: Settings, on_progress: StageProgress | None) -> Saved:
+def _captured(robot: Robot, job: CaptureJob, settings: Settings, on_progress: _StageProgress | None) -> Saved:
     recordings = [open_recording(bag, slop=settings.slop) for bag in job.bags]
     takes: list[SignTake] = []
     warnings: list[str] = []

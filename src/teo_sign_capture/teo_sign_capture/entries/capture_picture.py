@@ -83,10 +83,10 @@ def _drawer(take: SignTake, recording: Recording | None, cache: Path) -> _Drawer
     if recording is None or (recording.is_flat and recording.has_skeletons):
         return lambda time: _draw_person(take, time)
     if recording.is_flat:
-        images = video_pictures(recording.path, start=start, end=end, size=_SIZE)
+        images = _video_pictures(recording.path, start=start, end=end, size=_SIZE)
     else:
         skeletons = skeletons_of(recording, cache)
-        images = colour_images(recording.path, skeletons, start=start, end=end, size=_SIZE)
+        images = _colour_images(recording.path, skeletons, start=start, end=end, size=_SIZE)
     if not images:
         return lambda time: _draw_person(take, time)
     times = np.array([when for when, _ in images])
@@ -139,7 +139,7 @@ class _Seen(NamedTuple):
     high: Array
 
 
-def colour_images(
+def _colour_images(
     bag: Path, skeletons: Path, *, start: float, end: float, size: tuple[int, int]
 ) -> list[tuple[float, Image]]:
     """Colour images of a stroke, cut out around the person.
@@ -171,11 +171,11 @@ def colour_images(
         time = (stamp_of(found.message) - seen.first) * 1e-9 - start
         if -_NEAREST <= time <= end - start + _NEAREST:
             image = color_of(found.message)
-            images.append((time, fitted(_around(image, seen, size), size)))
+            images.append((time, _fitted(_around(image, seen, size), size)))
     return images
 
 
-def video_pictures(
+def _video_pictures(
     video: Path, *, start: float, end: float, size: tuple[int, int]
 ) -> list[tuple[float, Image]]:
     """Whole images of a stroke in a video.
@@ -194,11 +194,11 @@ def video_pictures(
         if when > end + _NEAREST:
             break
         if when >= start - _NEAREST:
-            images.append((when - start, fitted(image, size)))
+            images.append((when - start, _fitted(image, size)))
     return images
 
 
-def fitted(image: Image, size: tuple[int, int]) -> Image:
+def _fitted(image: Image, size: tuple[int, int]) -> Image:
     """The whole image in a size [px], with paper beside it where the shapes differ."""
     height, width = image.shape[:2]
     share = min(size[0] / width, size[1] / height)

@@ -3,7 +3,7 @@
 """Where on a robot a place at or before a person's body is.
 
 A robot is not built as a person: TEO's shoulders are nearly twice as far apart, its head is small. In the
-air the workspace is scaled axis by axis (`WorkspaceScaling`): crown, shoulders and waist keep their heights;
+air the workspace is scaled axis by axis (`_WorkspaceScaling`): crown, shoulders and waist keep their heights;
 distances before the body scale with the length of the arms; sideways the scale is half-way between both, so
 that circles stay nearly round; and arms stretched out, or hanging, stay so.
 
@@ -35,7 +35,7 @@ _WAIST = 0.7
 _BEYOND = 3.0
 
 
-class WorkspaceScaling:
+class _WorkspaceScaling:
     """The map of one person's space to TEO's, both from between the shoulders.
 
     Attributes:
@@ -119,7 +119,7 @@ class BodyMap:
         self.shoulder_height = float(arm.shoulder[2])
         self.humanoid = robot.humanoid
         crown = find_place(self.humanoid, "head_top").point[2] - self.shoulder_height
-        self._scaling = WorkspaceScaling(person, reach, shoulder, self.shoulder_height, crown)
+        self._scaling = _WorkspaceScaling(person, reach, shoulder, self.shoulder_height, crown)
         self.scale: Array = self._scaling.scale
         self._size = person.trunk / _TRUNK
         self._boxes = body_boxes(robot)

@@ -140,24 +140,10 @@ _BREADTH, _BREADTH_TEO = 0.085, 0.09
 _BEHIND = 0.10
 
 
-class PlaceFigures(NamedTuple):
-    """How the places of one hand compare.
-
-    Attributes:
-        same: Whether both hands are in one zone, at least in part. Shape (T,).
-        middles_same: Whether their middles are. Shape (T,).
-        wrong: Whether who watches reads another place. Shape (T,).
-    """
-
-    same: Flags
-    middles_same: Flags
-    wrong: Flags
-
-
 def place_figures(
     body: BodyMap, person: Person, points: Array, moved: Array, teo: Array, side: str
-) -> PlaceFigures:
-    """Compare the places of one hand.
+) -> dict[str, Flags]:
+    """Compare the places of one hand, by the fields of `RobotMotion`. Shape (T,) each.
 
     Args:
         body: The map, for TEO's size.
@@ -173,11 +159,11 @@ def place_figures(
     # On the face is judged where the face is: a head that bows takes it along.
     shown = shown._replace(from_face=zones.find((points - moved) * flip).from_face)
     found = own.find(teo)
-    return PlaceFigures(
-        same=same_zone(shown, found),
-        middles_same=same_zone_of_middles(shown, found),
-        wrong=wrong_place(shown, found),
-    )
+    return {
+        "same_zone": same_zone(shown, found),
+        "same_zone_of_middle": same_zone_of_middles(shown, found),
+        "wrong_place": wrong_place(shown, found),
+    }
 
 
 def _zones_of_person(person: Person) -> Zones:

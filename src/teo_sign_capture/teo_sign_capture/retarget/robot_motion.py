@@ -11,6 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from teo_common.arrays import Array
 from teo_description.hand_geometry import hand_table
@@ -192,28 +193,19 @@ def _limb(humanoid: Humanoid, side: Side, arm: Array, hand: Array) -> Array:
 
 def _hand_figures(free: FreeMotion, signer: SignerMotion, arms: Array) -> dict[str, Array]:
     """Errors of the hands, their contacts and places, by the fields of `RobotMotion`. Shapes (T, 2)."""
-    names = (
-        "place_error",
-        "palm_error",
-        "finger_error",
-        "flexion_error",
-        "contact",
-        "same_zone",
-        "same_zone_of_middle",
-        "wrong_place",
-    )
-    found = {name: np.full((len(arms), 2), np.nan) for name in names}
+    found: dict[str, Array] = {}
     moved = free.head.places - signer.person.head
     for side, wanted in free.goals.items():
-        column, poses = _COLUMN[side], free.poses(side, arms)
+        poses = free.poses(side, arms)
         hand = poses.points(wanted.local)
-        found["place_error"][:, column] = np.linalg.norm(hand - wanted.place, axis=1)
-        found["palm_error"][:, column] = angles_between(poses.rotation[:, :, 2], wanted.palm)
-        found["finger_error"][:, column] = angles_between(poses.rotation[:, :, 0], wanted.fingers)
-        found["flexion_error"][:, column] = free.hands[side].error
-        found["contact"][:, column] = wanted.contact
-        places = place_figures(free.body, signer.person, free.meant[side], moved, hand, side)
-        found["same_zone"][:, column] = places.same
-        found["same_zone_of_middle"][:, column] = places.middles_same
-        found["wrong_place"][:, column] = places.wrong
+        figures: dict[str, Array | NDArray[np.bool_]] = {
+            "place_error": np.linalg.norm(hand - wanted.place, axis=1),
+            "palm_error": angles_between(poses.rotation[:, :, 2], wanted.palm),
+            "finger_error": angles_between(poses.rotation[:, :, 0], wanted.fingers),
+            "flexion_error": free.hands[side].error,
+            "contact": wanted.contact,
+            **place_figures(free.body, signer.person, free.meant[side], moved, hand, side),
+        }
+        for name, values in figures.items():
+            found.setdefault(name, np.full((len(arms), 2), np.nan))[:, _COLUMN[side]] = values
     return found

@@ -115,7 +115,7 @@ class SkeletonTrack:
                 raise ValueError(f"expected {name} of shape ({count}, {keypoints}, 3), got {shape}")
         if self.trunk is not None and self.trunk.shape != (count, 3):
             raise ValueError(f"expected trunk of shape ({count}, 3), got {self.trunk.shape}")
-        check_times(self.times, self.source)
+        _check_times(self.times, self.source)
 
     def hand(self, side: str) -> Keypoints:
         """The hand of a side, "right" or "left"."""
@@ -150,7 +150,7 @@ class SkeletonTrack:
         )
 
 
-def check_times(times: Array, source: str) -> None:
+def _check_times(times: Array, source: str) -> None:
     """See that there are times and that each is later than the one before.
 
     Raises:
@@ -207,7 +207,7 @@ def in_body_axes(
         LutError: "no_torso" if both shoulders are never seen or the points make no axes; "bad_stamps" or
             "empty_track" for times.
     """
-    check_times(times, source)
+    _check_times(times, source)
     origins, axes = _trunk(times, body, source, np.asarray(up))
     parts = {"body": body, "left_hand": left_hand, "right_hand": right_hand, "face": face}
     moved = {

@@ -10,19 +10,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from made_bags import OUT, REST, signing, write_bag
+from made_bags import OUT, REST, signing
 from made_tracks import lose, make_track, path
-from typer.testing import CliRunner, Result
 
 from teo_description.robot import Robot
-from teo_lut_executor.cli.lut import app
 from teo_sign_capture.entries.gates import RefusedError, accepted_standing, judge, objections
 from teo_sign_capture.entries.sign_entry import Origin, make_sign
 from teo_sign_capture.entries.take import Cut, SignTake, capture_take
 from teo_sign_capture.recordings.skeleton_bag import read_skeletons
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_signs.errors import LutError
-from teo_signs.look_up_table import Lut
 from teo_synthetic_signer import Take as Performance
 from teo_synthetic_signer import TakeOptions
 from teo_synthetic_signer.take.take_bag import write_take
@@ -47,10 +44,6 @@ def robot() -> Robot:
 @pytest.fixture(scope="module")
 def take(robot: Robot) -> SignTake:
     return capture_take(robot, signing(rate=15.0))
-
-
-def run(*arguments: str | Path) -> Result:
-    return CliRunner(env={"COLUMNS": "400"}).invoke(app, [str(argument) for argument in arguments])
 
 
 def test_a_sign_at_every_limit_is_taken() -> None:
@@ -171,30 +164,6 @@ def test_a_take_that_is_no_good_is_refused_for_what_is_wrong_with_it(
     with pytest.raises(RefusedError) as caught:
         make_sign(robot, "SIGNO", [capture_take(robot, made())], ORIGIN)
     assert {verdict.code for verdict in objections(caught.value.verdicts)} == codes
-
-
-def test_a_teacher_is_told_what_to_do_and_may_accept(tmp_path: Path) -> None:
-    bag = write_bag(tmp_path / "take.mcap", signing(moves=NO_REST, duration=2.0, rate=15.0))
-    arguments = (
-        "capture",
-        bag,
-        "--gloss",
-        "SIGNO",
-        "--hands",
-        "right",
-        "--lut",
-        tmp_path / "lut",
-        "--no-draw",
-    )
-    refused = run(*arguments)
-    assert refused.exit_code == 1
-    assert refused.output.startswith("no_rest: SIGNO: ")
-    assert "from rest to rest" in refused.output
-    assert not (tmp_path / "lut").exists()
-    assert run(*arguments, "--accept").exit_code == 0
-    provenance = Lut.open(tmp_path / "lut")["SIGNO"].provenance
-    assert provenance.standing == "measured"
-    assert "begins and ends within it" in provenance.notes
 
 
 def test_the_first_example_of_the_guide_passes(robot: Robot, tmp_path: Path) -> None:

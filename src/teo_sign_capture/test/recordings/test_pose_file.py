@@ -84,6 +84,15 @@ def points(components: dict[str, Sequence[str]]) -> Array:
     return np.array(found)
 
 
+def person(frames: int = 8) -> Array:
+    """Shape (T, 1, K, 3)."""
+    return np.tile(points(HOLISTIC), (frames, 1, 1, 1))
+
+
+HOLED = person()
+HOLED[2, 0, 5, 1] = np.nan
+
+
 def write(
     path: Path,
     components: dict[str, Sequence[str]] | list[PoseHeaderComponent] = HOLISTIC,
@@ -173,13 +182,13 @@ def test_openpose_is_read_and_has_no_depth(tmp_path: Path) -> None:
 
 def test_fractions_of_the_picture_become_pixels(tmp_path: Path) -> None:
     pixels = read_pose_file(write(tmp_path / "pixels.pose"))
-    data = np.tile(points(HOLISTIC), (8, 1, 1, 1)) / [640.0, 480.0, 1.0]
+    data = person() / [640.0, 480.0, 1.0]
     fractions = read_pose_file(write(tmp_path / "fractions.pose", HOLISTIC, data))
     np.testing.assert_allclose(fractions.body.places[0, :8, 1:], pixels.body.places[0, :8, 1:], atol=1e-3)
 
 
 def test_a_clip_scaled_to_its_shoulders_keeps_its_units(tmp_path: Path) -> None:
-    data = (np.tile(points(HOLISTIC), (8, 1, 1, 1)) - [320.0, 200.0, 0.0]) / [160.0, 160.0, 1.0]
+    data = (person() - [320.0, 200.0, 0.0]) / [160.0, 160.0, 1.0]
     clip = read_pose_file(write(tmp_path / "scaled.pose", HOLISTIC, data))
     across = clip.body.places[0, 5] - clip.body.places[0, 2]
     np.testing.assert_allclose(across[1:], [1.0, 0.0], atol=1e-6)
@@ -188,7 +197,7 @@ def test_a_clip_scaled_to_its_shoulders_keeps_its_units(tmp_path: Path) -> None:
 def test_points_of_confidence_zero_are_lost(tmp_path: Path) -> None:
     confidence = np.ones((8, 1, points(HOLISTIC).shape[0]))
     confidence[3, 0, -21:] = 0.0
-    data = np.tile(points(HOLISTIC), (8, 1, 1, 1))
+    data = person()
     data[3, 0, -21:] = np.nan  # whatever is there
     clip = read_pose_file(write(tmp_path / "holes.pose", HOLISTIC, data, confidence))
     assert np.isnan(clip.right_hand.places[3]).all()
@@ -196,7 +205,7 @@ def test_points_of_confidence_zero_are_lost(tmp_path: Path) -> None:
 
 
 def two_people() -> tuple[Array, Array]:
-    one = np.tile(points(HOLISTIC), (8, 1, 1, 1))
+    one = person()
     other = one + np.array([50.0, 0.0, 0.0])
     return np.concatenate([one, other], axis=1), np.ones((8, 2, one.shape[2]))
 
@@ -218,44 +227,34 @@ def test_an_empty_place_for_a_person_is_no_person(tmp_path: Path) -> None:
     assert code_of(write(tmp_path / "none.pose", HOLISTIC, data, confidence)) == "no_person"
 
 
-@pytest.mark.parametrize("rate", [0.0, -25.0, math.nan, math.inf, 1e6])
-def test_a_rate_that_is_none_is_refused(tmp_path: Path, rate: float) -> None:
-    assert code_of(write(tmp_path / "rate.pose", rate=rate)) == "bad_rate"
-
-
-def test_one_frame_or_none_is_no_sign(tmp_path: Path) -> None:
-    for frames in (0, 1):
-        data = np.tile(points(HOLISTIC), (frames, 1, 1, 1))
-        assert code_of(write(tmp_path / f"{frames}.pose", HOLISTIC, data)) == "too_short"
-
-
-def test_a_point_that_is_seen_nowhere_is_refused(tmp_path: Path) -> None:
-    data = np.tile(points(HOLISTIC), (8, 1, 1, 1))
-    data[2, 0, 5, 1] = np.nan
-    assert code_of(write(tmp_path / "nan.pose", HOLISTIC, data)) == "non_finite"
-
-
 def test_unknown_layouts_are_refused_with_what_is_known(tmp_path: Path) -> None:
     path = write(tmp_path / "other.pose", {"BODY_135": ("Nose", "LEye", "REye")})
     assert code_of(path) == "unknown_layout"
     with pytest.raises(LutError, match=r"MediaPipe Holistic.*OpenPose.*BODY_135"):
         read_pose_file(path)
-    few = write(tmp_path / "few.pose", {"POSE_LANDMARKS": POSE, "RIGHT_HAND_LANDMARKS": HAND[:15]})
-    assert code_of(few) == "unknown_layout"
 
 
-def test_a_clip_without_hands_or_shoulders_is_refused(tmp_path: Path) -> None:
-    assert code_of(write(tmp_path / "body.pose", {"POSE_LANDMARKS": POSE})) == "no_hand"
-    assert code_of(write(tmp_path / "arm.pose", {"POSE_LANDMARKS": POSE[13:17], **HANDS})) == "no_torso"
-
-
-def test_a_mirrored_clip_is_refused(tmp_path: Path) -> None:
-    data = np.tile(points(HOLISTIC), (8, 1, 1, 1)) * [-1.0, 1.0, 1.0] + [640.0, 0.0, 0.0]
-    assert code_of(write(tmp_path / "mirrored.pose", HOLISTIC, data)) == "seen_from_behind"
+@pytest.mark.parametrize(
+    ("code", "made"),
+    [
+        *(("bad_rate", {"rate": rate}) for rate in (0.0, -25.0, math.nan, math.inf, 1e6)),
+        ("too_short", {"data": person(0)}),
+        ("too_short", {"data": person(1)}),
+        ("non_finite", {"data": HOLED}),
+        ("unknown_layout", {"components": {"POSE_LANDMARKS": POSE, "RIGHT_HAND_LANDMARKS": HAND[:15]}}),
+        ("no_hand", {"components": {"POSE_LANDMARKS": POSE}}),
+        ("no_torso", {"components": {"POSE_LANDMARKS": POSE[13:17], **HANDS}}),
+        ("seen_from_behind", {"data": person() * [-1.0, 1.0, 1.0] + [640.0, 0.0, 0.0]}),  # mirrored
+    ],
+)
+def test_a_clip_of_which_no_sign_can_be_made_is_refused(
+    tmp_path: Path, code: str, made: dict[str, Any]
+) -> None:
+    assert code_of(write(tmp_path / "bad.pose", **made)) == code
 
 
 def test_shoulders_that_a_detector_confused_are_not_a_person_from_behind(tmp_path: Path) -> None:
-    data = np.tile(points(HOLISTIC), (8, 1, 1, 1))
+    data = person()
     names = HOLISTIC["POSE_LANDMARKS"]
     left, right = names.index("LEFT_SHOULDER"), names.index("RIGHT_SHOULDER")
     data[:, :, [left, right]] = data[:, :, [right, left]]

@@ -27,7 +27,7 @@ from teo_skeleton_retriever.lifting.depth_smoothing import smooth_depth
 # [m] Lengths of an adult's limbs, between the centres of the joints. After Drillis and Contini, "Body Segment
 # Parameters" (1966), a person of 1.65 m has arms of 0.31 and 0.24 and acromia 0.43 m apart; joints of
 # shoulders, to which and from which detectors measure, are some 4 cm further in and down.
-SHOULDERS, UPPER_ARM, FOREARM = 0.36, 0.28, 0.24
+_SHOULDERS, _UPPER_ARM, _FOREARM = 0.36, 0.28, 0.24
 
 # A person turns, and a limb points at the camera: the length is what few frames exceed.
 _SHOULDERS_PERCENTILE, _LIMB_PERCENTILE = 90.0, 95.0
@@ -66,15 +66,15 @@ def measure_body(body: Points) -> BodyMeasure:
     both = [(SHOULDER["left"], SHOULDER["right"])]
     shoulders = float(np.percentile(_lengths(body, both), _SHOULDERS_PERCENTILE))
     limbs, seen = [], []
-    for usual, start, end in ((UPPER_ARM, SHOULDER, ELBOW), (FOREARM, ELBOW, WRIST)):
-        expected = usual / SHOULDERS * shoulders
+    for usual, start, end in ((_UPPER_ARM, SHOULDER, ELBOW), (_FOREARM, ELBOW, WRIST)):
+        expected = usual / _SHOULDERS * shoulders
         lengths = _lengths(body, [(start[side], end[side]) for side in SIDES])
         longest = float(np.percentile(lengths, _LIMB_PERCENTILE)) if lengths.size else 0.0
         full = _FULL_LENGTH[0] <= longest / expected <= _FULL_LENGTH[1]
         limbs.append(_TRUST * longest + (1.0 - _TRUST) * expected if full else expected)
         seen.append(full)
     # The more of a person was measured the less one odd proportion matters.
-    scale = (SHOULDERS + UPPER_ARM + FOREARM) / (shoulders + sum(limbs))
+    scale = (_SHOULDERS + _UPPER_ARM + _FOREARM) / (shoulders + sum(limbs))
     return BodyMeasure(
         scale=scale, upper_arm=scale * limbs[0], forearm=scale * limbs[1], seen=(seen[0], seen[1])
     )

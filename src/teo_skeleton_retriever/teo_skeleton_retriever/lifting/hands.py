@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from teo_skeleton_retriever.arrays import FloatArray
+from teo_skeleton_retriever.arrays import BoolArray, FloatArray
 from teo_skeleton_retriever.depth.hand_shape import CHILD, PARENT, turned
 from teo_skeleton_retriever.lifting.clip import Points
 from teo_skeleton_retriever.lifting.depth_smoothing import smooth_depth
@@ -92,7 +92,7 @@ def lift_hand(hand: Points, *, scale: float, period: float, right: bool, forearm
         forearm: How far its forearm comes forward for each of its lengths, where the detector guesses no
             depth; may be NaN where it does. Shape (T,).
     """
-    seen = hand.seen.all(axis=1)
+    seen: BoolArray = np.asarray(hand.seen.all(axis=1))
     points = np.full((*hand.seen.shape, 3), np.nan)
     sigma = np.full(hand.seen.shape, np.nan)
     if not seen.any():
