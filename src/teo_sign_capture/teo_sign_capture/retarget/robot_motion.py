@@ -35,7 +35,6 @@ from teo_sign_capture.retarget.collision_terms import CollisionModel
 from teo_sign_capture.retarget.hand_goals import (
     HandGoals,
     before_folded_arm,
-    contact_part,
     hand_goals,
     pair_goals,
 )
@@ -92,13 +91,9 @@ def free_motion(robot: Robot, signer: SignerMotion) -> FreeMotion:
     body = BodyMap(robot, chain, signer.person)
     hands = {side: follow_hand(table, signer.times, arm) for side, arm in signer.arms.items()}
     points = {side: robot_hand_points(table, hand.axes) for side, hand in hands.items()}
-    parts = {side: contact_part(body, head, arm.points) for side, arm in signer.arms.items()}
-    goals = {
-        side: hand_goals(body, head, arm, parts[side], points[side]) for side, arm in signer.arms.items()
-    }
-    pair = None
-    if len(signer.arms) == 2:
-        pair = pair_goals(body, signer.times, signer.arms, points)
+    wanted = {side: hand_goals(body, head, arm, points[side]) for side, arm in signer.arms.items()}
+    goals = {side: found for side, (found, _) in wanted.items()}
+    pair = pair_goals(body, signer.times, signer.arms, points) if len(signer.arms) == 2 else None
     problem = ArmProblem(chain, tuple(before_folded_arm(chain, goal) for goal in goals.values()), pair)
     bounds = [arm_bounds(robot.humanoid, side) for side in signer.arms]
     return FreeMotion(
@@ -106,7 +101,7 @@ def free_motion(robot: Robot, signer: SignerMotion) -> FreeMotion:
         body=body,
         head=head,
         hands=hands,
-        meant={side: parts[side].point(arm.points) for side, arm in signer.arms.items()},
+        meant={side: meant for side, (_, meant) in wanted.items()},
         goals=goals,
         problem=problem,
         bounds=bounds,

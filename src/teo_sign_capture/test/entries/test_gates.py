@@ -176,9 +176,3 @@ def test_the_first_example_of_the_guide_passes(robot: Robot, tmp_path: Path) -> 
     assert sign.provenance.standing == "recorded"
     assert sign.quality["place_error_p95_mm"] < 120.0
     assert sign.quality["stretch_times"] < 2.0
-
-
-def test_a_touch_without_a_hold_is_cut_long_enough_to_be_read(robot: Robot) -> None:
-    take = capture_take(robot, signing(moves=[(0.5, 0.9, OUT), (0.9, 1.3, REST)]))
-    sign = make_sign(robot, "SIGNO", [take], ORIGIN).sign
-    assert 0.25 <= sign.duration <= 0.45

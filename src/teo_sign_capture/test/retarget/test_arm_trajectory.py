@@ -119,23 +119,6 @@ def test_slopes_of_what_is_wanted_are_true(chain):
         )
 
 
-def test_what_counts_for_nothing_is_passed_on_the_straight_way(chain):
-    problem = ArmProblem(chain, (goals_of(chain, ARMS),), None)
-    shares = np.ones(len(TIMES))
-    shares[15:25] = 0.0
-    start = solve_arms(problem, TIMES, BOUNDS[:1], STARTS)
-    found = refine_arms(problem, TIMES, BOUNDS[:1], start, shares=shares)
-    between = found[14:26]
-    straight = np.linspace(between[0], between[-1], 12)
-    assert np.degrees(np.abs(between - straight)).max() < 1.0
-
-
-def test_a_single_frame_is_solved(chain):
-    problem = ArmProblem(chain, (goals_of(chain, ARMS[:1]),), None)
-    found = solve_arms(problem, TIMES[:1], BOUNDS[:1], STARTS)
-    assert chain.poses(found).place == pytest.approx(chain.poses(ARMS[:1]).place, abs=0.01)
-
-
 def test_a_fast_beat_keeps_its_height(chain):
     beat = np.radians(8.0) * np.sin(2.0 * np.pi * 3.0 * TIMES)
     arms = np.tile(np.radians([-50.0, -15.0, 10.0, -80.0, 20.0, 0.0]), (len(TIMES), 1))

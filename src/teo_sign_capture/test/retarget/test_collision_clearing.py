@@ -48,17 +48,6 @@ def test_the_nearest_of_them_is_the_clearance(model):
     )
 
 
-def test_the_way_of_the_hands_is_no_shorter_than_that_of_their_knuckles(model):
-    arms = NEAR + np.random.default_rng(2).uniform(-0.2, 0.2, (2, 12))
-    robot = Robot.load()
-    ends = [robot.configuration(model.pose(frame, arms[frame])) for frame in (0, 1)]
-    moved = 0.0
-    for side in ("Right", "Left"):
-        places = [robot.placement(q, f"{side}MiddleFinger_link")[:3, 3] for q in ends]
-        moved += float(np.linalg.norm(places[1] - places[0]))
-    assert moved < model.ways(arms)[0] < 1.5 * moved
-
-
 FRAMES = 12
 TIMES = np.arange(FRAMES) / 15.0
 # From before the chest into the belly and back [deg].

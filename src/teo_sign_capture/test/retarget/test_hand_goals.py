@@ -21,7 +21,6 @@ from teo_sign_capture.retarget.body_map import BodyMap
 from teo_sign_capture.retarget.hand_goals import (
     HandGoals,
     before_folded_arm,
-    contact_part,
     hand_goals,
     pair_goals,
 )
@@ -57,7 +56,7 @@ class Scene:
 
     def goals(self, hand, side="right"):
         arm = signer_arm(side, ARM if side == "right" else ARM * MIRROR, hand[None], STRAIGHT)
-        return hand_goals(self.body, self.head, arm, contact_part(self.body, self.head, arm.points), self.teo)
+        return hand_goals(self.body, self.head, arm, self.teo)[0]
 
     def pair(self, right, left, joints=None):
         joints = joints or (ARM, ARM * MIRROR)
