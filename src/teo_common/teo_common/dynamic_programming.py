@@ -24,6 +24,8 @@ def cheapest_path(
 ) -> NDArray[np.intp]:
     """Choose one candidate at each of n moments: least sum of their costs and of the steps between them.
 
+    The algorithm is Viterbi's (IEEE Trans. Information Theory, 1967).
+
     Args:
         costs: Of the c candidates at each moment; c may differ from moment to moment. n arrays of shape (c,).
         values: What the candidates are. n arrays of shape (c, k).
@@ -57,7 +59,14 @@ class Warp(NamedTuple):
 
 
 def warp(first: Array, second: Array) -> Warp:
-    """Align two motions in time; frames are as far apart as what differs most. Shapes (n, f, 3) each."""
+    """Align two motions at any pace (dynamic time warping; Sakoe and Chiba, IEEE Trans. ASSP, 1978).
+
+    Two frames are as far apart as what differs most in them.
+
+    Args:
+        first: f points or directions in each frame. Shape (n, f, 3).
+        second: Likewise. Shape (m, f, 3).
+    """
     cost = np.linalg.norm(first[:, None] - second[None], axis=3).max(axis=2)
     total = np.full((len(first) + 1, len(second) + 1), np.inf)
     total[0, 0] = 0.0

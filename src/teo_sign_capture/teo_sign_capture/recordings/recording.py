@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""What a sign is captured from: a bag of skeletons or images, a video, or a clip of a person's points.
+"""What a sign is captured from, read as a track: a bag of skeletons or images, a video, or a `.pose` file.
 
-Skeletons of a bag's images are found by the retriever, in a process of its own, and kept in a cache.
+What the retriever finds in images is kept in a cache.
 """
 
 from __future__ import annotations
@@ -170,7 +170,7 @@ def track_of(
             of `find_skeletons` ("no_depth", "no_camera_info", ...) or `find_points`.
     """
     found, warnings = recording.path, ""
-    if not recording.has_skeletons and topic is None:
+    if not recording.has_skeletons and (recording.is_flat or topic is None):
         found = _cached(recording, cache)
         _fill_cache(recording, found, on_progress)
         warnings = _warnings_of(found).read_text("utf-8") if _warnings_of(found).is_file() else ""

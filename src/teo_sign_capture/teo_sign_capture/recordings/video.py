@@ -108,8 +108,6 @@ def video_images(path: Path) -> Iterator[VideoImage]:
 
 def _upright(frame: object) -> Image:
     """An image as players show it: phones are held upright and note so beside the images."""
-    import cv2
-
     image: Image = frame.to_ndarray(format="rgb24")  # type: ignore[attr-defined]  # PyAV's VideoFrame
     image = np.rot90(image, round(frame.rotation / 90.0) % 4)  # type: ignore[attr-defined]  # counter-clockwise
     share = _LONGEST_SIDE / max(image.shape[:2])

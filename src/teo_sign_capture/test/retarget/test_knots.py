@@ -26,7 +26,7 @@ from teo_sign_capture.retarget.knots import (
 
 JOINTS = RIGHT_ARM + RIGHT_HAND
 TEO = load_humanoid()
-TIMES = np.arange(0.0, 2.0, 1.0 / 30.0)
+TIMES = np.arange(0.0, 1.5, 1.0 / 30.0)
 MIDDLE = (joint_limits(JOINTS).lower + joint_limits(JOINTS).upper) / 2.0
 
 

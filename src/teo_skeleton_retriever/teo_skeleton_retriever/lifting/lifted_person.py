@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""From a person's points in a picture to a track of keypoints in space.
+"""From a person's points in a picture to keypoints in space.
 
 The person is taken as facing the camera: what is left and up is seen, what is forward follows from the
 lengths of limbs (`lifting.arms`), of a hand's bones (`lifting.hands`) and from the shape of a head
