@@ -174,7 +174,7 @@ class Match:
 
     Attributes:
         gloss: Its name.
-        distance: Root mean square over the warped sign of all that differs, in the units of `appearance`: 2
+        distance: Root mean square over the warped sign of all that differs, in this module's units: 2
             to 4 between a person's sign and its own entry.
     """
 
@@ -241,7 +241,7 @@ class Comparison:
     """How what was shown differs from a sign, by the parts of which signs are made (Stokoe 1960).
 
     Differences are root mean squares over the sign, its time warped, of the hand that differs more, in the
-    units of `appearance`: 1 is what a person's sign differs by from its entry in half of the known takes, 4
+    module's units: 1 is what a person's sign differs by from its entry in half of the known takes, 4
     what another sign does.
 
     Attributes:

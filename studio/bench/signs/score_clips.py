@@ -78,7 +78,7 @@ KNOWN_LAST = Draw(
     distance=1.8,
     without=(KNOWN, KNOWN_SINCE),
 )
-# On these it was chosen how often depths are found anew (`lifting.clip`).
+# On these it was chosen how often depths are found anew (`lifting.lifted_person`).
 KNOWN_DEPTHS = Draw(
     seed=33_871,
     signs=18,

@@ -3,7 +3,7 @@
 """Several takes of one sign become one motion: those that agree are averaged, or the best is chosen.
 
 Takes are compared by what the robot shows: where each palm is, how hand and fingers are directed, and how the
-fingers are bent, in units that people just tell apart; time is warped (`time_warp`), as nobody signs
+fingers are bent, in units that people just tell apart; time is warped, as nobody signs
 twice at the same pace.
 """
 

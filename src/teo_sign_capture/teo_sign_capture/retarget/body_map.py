@@ -8,7 +8,7 @@ distances before the body scale with the length of the arms; sideways the scale 
 that circles stay nearly round; and arms stretched out, or hanging, stay so.
 
 At the body this is bent so that each place of articulation comes to lie on TEO's own
-(`signing_space.places`): a chin is a chin. What is between is interpolated smoothly, and the bend fades away
+(`signing_space`): a chin is a chin. What is between is interpolated smoothly, and the bend fades away
 from the body within a forearm's length. At the head all this is done in the head's own axes: a hand at the
 chin stays there while the head turns.
 """
@@ -96,7 +96,7 @@ _SKIN = 0.015
 # [m] Nearer to the middle of the head a hand goes with it, farther it does not, for the same person.
 _HEAD_HELD, _HEAD_LEFT = 0.17, 0.32
 
-# Names in `signing_space.places` of a person's places; those aside stand for both sides.
+# Names in `signing_space` of a person's places; those aside stand for both sides.
 _MIDDLE = {
     name: name
     for name in ("head_top", "forehead", "nose", "mouth", "chin", "throat", "upper_chest", "chest", "belly")

@@ -6,7 +6,7 @@ A major place is what a person who watches reads of where a sign is made: five h
 whether the hand is on the face, elsewhere on the body, in the air before it or behind it. A hand that is 12
 cm off within these is at the same place; one that is 5 cm off across a border may be at another. A hand has a
 breadth: one that lies across a border is on both its sides. The finer names are those of
-`signing_space.places`.
+`signing_space`.
 
 Person and robot are each read by their own body: the person's chin, crown, waist and shoulders, and TEO's.
 Nothing of the map that says where the robot's hand is to go is used, so that its faults are seen as well.
@@ -122,7 +122,7 @@ def _meet(first: NDArray[np.intp], second: NDArray[np.intp]) -> Flags:
     return np.asarray(np.maximum(first[:, 0], second[:, 0]) <= np.minimum(first[:, 1], second[:, 1]))
 
 
-# Places of the face, as in `Person.places` and `signing_space.places`.
+# Places of the face, as in `Person.places` and `signing_space`.
 _FACE = ("forehead", "eye", "nose", "mouth", "chin")
 # Shares of the way from the shoulders to the hips at which the chest ends and the waist is.
 _CHEST, _WAIST = 1.0 / 3.0, 0.7

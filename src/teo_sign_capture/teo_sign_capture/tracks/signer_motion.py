@@ -72,7 +72,7 @@ class Person:
         head_shape: Keypoints of the head, as `head_pose.head_shape` finds them [m]. Shape (95, 3).
         straight: What knuckle, middle and last joint of index ... little finger seem bent by while they are
             straight [rad]. Shape (4, 3).
-        places: Places of articulation on the skin by their names in `signing_space.places`, the head held
+        places: Places of articulation on the skin by their names in `signing_space`, the head held
             straight; those aside are the right ones, the left ones mirror them. Shape (3,) each.
     """
 
