@@ -7,7 +7,7 @@ with a detector's noise and lifted, and as films whose points MediaPipe has foun
 capture and sought among all words and numbers of the table, beside a search by TEO's joints. Leave-one-out
 is of takes: each is sought among the lifted takes of the draw's other bodies, the table put aside.
 
-The units of `teo_sign_capture.recognition` were chosen on the 26 signs of `KNOWN`, stopping and swung, exact and
+The units of `recognition.py` were chosen on the 26 signs of `KNOWN`, stopping and swung, exact and
 lifted, and on seven films of other signs by the six bodies that have names. `NEW` was drawn when that was
 finished, of other signs and people: looked at, it is known, and another is to be drawn.
 """

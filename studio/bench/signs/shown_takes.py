@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Takes of written signs as recognition gets them: exact, lifted from points in a picture, and filmed.
 
-Beside what is compared (`teo_sign_capture.recognition`) each take has the joints of TEO's arms and fingers, the
+Beside what is compared (`recognition.py` of capture) each take has the joints of TEO's arms and fingers, the
 plainest thing that could be compared instead.
 """
 
