@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,12 +16,8 @@ from teo_description.robot import Robot
 from teo_sign_capture.entries.gates import RefusedError, accepted_standing, judge, objections
 from teo_sign_capture.entries.sign_entry import Origin, make_sign
 from teo_sign_capture.entries.take import Cut, SignTake, capture_take
-from teo_sign_capture.recordings.skeleton_bag import read_skeletons
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_signs.errors import LutError
-from teo_synthetic_signer import Take as Performance
-from teo_synthetic_signer import TakeOptions
-from teo_synthetic_signer.take.take_bag import write_take
 
 GOOD = {
     "lost_percent": 20.0,
@@ -164,15 +159,3 @@ def test_a_take_that_is_no_good_is_refused_for_what_is_wrong_with_it(
     with pytest.raises(RefusedError) as caught:
         make_sign(robot, "SIGNO", [capture_take(robot, made())], ORIGIN)
     assert {verdict.code for verdict in objections(caught.value.verdicts)} == codes
-
-
-def test_the_first_example_of_the_guide_passes(robot: Robot, tmp_path: Path) -> None:
-    options = TakeOptions(script="greeting", body="man_average", sensor="d435", rate=15.0)
-    person = Performance(options)
-    frames = (person.truth(index) for index in range(len(person)))
-    assert sum(1 for _ in write_take(frames, tmp_path / "hello", truth_only=True)) == len(person)
-    track = read_skeletons(tmp_path / "hello", topic="/truth/skeletons")
-    sign = make_sign(robot, "SALUDAR", [capture_take(robot, track)], ORIGIN).sign
-    assert sign.provenance.standing == "recorded"
-    assert sign.quality["place_error_p95_mm"] < 120.0
-    assert sign.quality["stretch_times"] < 2.0
