@@ -26,6 +26,7 @@ from rich.table import Table
 from kept import kept_folder
 from report import Figure
 from teo_common.arrays import Array
+from teo_common.dynamic_programming import warp
 from teo_description.robot import Robot
 from teo_sign_authoring.notation.performance import performance
 from teo_sign_authoring.notation.score_file import default_scores_directory, read_score
@@ -35,7 +36,6 @@ from teo_sign_capture.entries.take import capture_take
 from teo_sign_capture.entries.take_combination import features
 from teo_sign_capture.recordings.recording import open_recording, track_of
 from teo_sign_capture.retarget.robot_motion import RobotMotion
-from teo_sign_capture.time_warp import warp
 from teo_signs.errors import LutError
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Handedness

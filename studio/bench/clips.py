@@ -27,8 +27,7 @@ from teo_sign_authoring.alphabet.letter_clips import load_letter_clips
 from teo_sign_authoring.notation.performance import performance
 from teo_sign_authoring.notation.score_file import default_scores_directory, read_score
 from teo_sign_capture.entries.bag_capture import CaptureJob, Saved, Settings, capture_bags
-from teo_sign_capture.lifting.clip import lift_clip
-from teo_sign_capture.recordings.recording import open_recording, points_of, track_of
+from teo_sign_capture.recordings.recording import open_recording, track_of
 from teo_sign_capture.tracks.skeleton_track import WRIST, SkeletonTrack
 from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 from teo_signs.errors import LutError
@@ -72,7 +71,7 @@ def _performed(robot: Robot, folder: Path) -> list[Figure]:
         lasted.append(time.monotonic() - begins)
         truth, _ = track_of(open_recording(bag), cache=folder / "cache", topic="/truth/skeletons")
         seen, _ = track_of(open_recording(bag), cache=folder / "cache")
-        lifted = lift_clip(points_of(open_recording(film), cache=folder / "cache"))
+        lifted = track_of(open_recording(film), cache=folder / "cache")[0]
         away["colour only"].append(_wrists(truth, lifted))
         away["with depth"].append(_wrists(truth, seen))
     return [

@@ -16,8 +16,7 @@ from signs.second_look import SecondLook
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan, sample_at
-from teo_sign_capture.recognition.appearance import MOMENTS, sign_appearance
-from teo_sign_capture.recognition.sign_index import SignIndex, distance_between
+from teo_sign_capture.recognition import MOMENTS, SignIndex, distance_between, sign_appearance
 from teo_signs.errors import PlanError
 from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign import Sign

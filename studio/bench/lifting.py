@@ -21,9 +21,9 @@ from signs.pictured import pictured
 from signs.signer_tracks import signer_track
 from teo_common.arrays import Array
 from teo_description.robot import Robot
-from teo_sign_capture.lifting.clip import lift_clip
-from teo_sign_capture.tracks.hand_shape import palm_axes
+from teo_sign_capture.recordings.recording import lifted_track
 from teo_sign_capture.tracks.skeleton_track import ELBOW, SHOULDER, WRIST, SkeletonTrack
+from teo_skeleton_retriever.lifting.hand_axes import palm_axes
 
 SCRIPTS = ("signing", "face", "crossing", "spelling")
 BODIES = ("woman_average", "man_average", "man_tall")
@@ -53,7 +53,7 @@ def measure() -> list[Figure]:
 
 def _figures(name: str, distance: float, depth: bool) -> list[Figure]:
     found = [
-        _errors(track, lift_clip(pictured(track, distance=distance, depth=depth)))
+        _errors(track, lifted_track(pictured(track, distance=distance, depth=depth)))
         for track in (_track(script, body) for script in SCRIPTS for body in BODIES)
     ]
     elbows, wrists, sized, palms = (np.concatenate(errors) for errors in zip(*found, strict=True))

@@ -7,7 +7,7 @@ with a detector's noise and lifted, and as films whose points MediaPipe has foun
 capture and sought among all words and numbers of the table, beside a search by TEO's joints. Leave-one-out
 is of takes: each is sought among the lifted takes of the draw's other bodies, the table put aside.
 
-The units of `recognition.appearance` were chosen on the 26 signs of `KNOWN`, stopping and swung, exact and
+The units of `recognition.py` were chosen on the 26 signs of `KNOWN`, stopping and swung, exact and
 lifted, and on seven films of other signs by the six bodies that have names. `NEW` was drawn when that was
 finished, of other signs and people: looked at, it is known, and another is to be drawn.
 """
@@ -27,8 +27,7 @@ from signs.score_clips import Draw
 from signs.shown_takes import EXACT, FILMED, LIFTED, ShownTake, shown_takes, sign_joints
 from teo_common.arrays import Array
 from teo_description.robot import Robot
-from teo_sign_capture.recognition.appearance import sign_appearance
-from teo_sign_capture.recognition.sign_index import SignIndex
+from teo_sign_capture.recognition import SignIndex, sign_appearance
 from teo_signs.likeness import nearest_pairs
 from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign import Sign

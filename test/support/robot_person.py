@@ -7,8 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
-from teo_sign_capture.tracks.body_axes import in_body_axes
-from teo_sign_capture.tracks.skeleton_track import Keypoints
+from teo_sign_capture.tracks.skeleton_track import Keypoints, in_body_axes
 
 FINGERS = ("Thumb", "Index", "Middle", "Ring", "Pinky")
 # Face keypoints at the places that TEO has for them (`score.places`, moved onto the collision shape) [m].

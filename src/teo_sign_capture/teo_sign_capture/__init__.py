@@ -10,12 +10,12 @@
 Each room imports only rooms above it in this list; the README says more of each.
 
     signing_space       directions, places of articulation, points of a hand
-    tracks              a person's keypoints over time
-    recordings          bags, clips and live skeletons
-    lifting             from points in a picture to keypoints in space
+    tracks              a person's keypoints over time, and the signer described once
+    recordings          bags, films, clips and live skeletons, each read as a track
     retarget            a person's motion as a motion of the robot
+    recognition         the signs that a demonstration may be
     entries             takes, checks, entries, batches
-    node, cli           the ROS node, the commands
+    cli, node           the commands, the ROS node
 
 A name is imported when it is first asked for: the commands start without what they do not need.
 """

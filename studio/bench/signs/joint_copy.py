@@ -15,9 +15,9 @@ from teo_common.arrays import Array
 from teo_description.humanoid import load_humanoid
 from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_sign_capture.retarget.arm_kinematics import mirrored
-from teo_sign_capture.signing_space.hand_points import MIRROR
-from teo_sign_capture.tracks.hand_shape import finger_bends, in_palm, palm_axes
+from teo_sign_capture.signing_space import MIRROR
 from teo_sign_capture.tracks.skeleton_track import ELBOW, SHOULDER, WRIST, SkeletonTrack
+from teo_skeleton_retriever.lifting.hand_axes import finger_bends, in_palm, palm_axes
 
 # Columns: along, to the little finger's side and out of the right palm while the arm hangs.
 _PALM_HANGING = np.array([[0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]])

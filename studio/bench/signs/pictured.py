@@ -9,8 +9,8 @@ import math
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_sign_capture.recordings.pose_file import Points, PoseClip
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
+from teo_skeleton_retriever.lifting.clip import Points, PoseClip
 
 _PIXELS, _NOISE = 550.0, 1.5  # of a metre; deviation of a point [pixel], as MediaPipe's across the view
 _DEPTH_NOISE, _DEPTH_SHARE = 0.006, 0.8  # of guessed depths in a hand: [m], and what is left of the true ones
@@ -44,5 +44,4 @@ def pictured(
         left_hand=part(track.left_hand.positions, guessed=depth),
         right_hand=part(track.right_hand.positions, guessed=depth),
         source=track.source,
-        layout="made of the truth",
     )

@@ -11,9 +11,9 @@ import numpy as np
 from teo_common.arrays import Array
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.body_map import body_boxes, on_skin
-from teo_sign_capture.signing_space.hand_points import MIRROR
-from teo_sign_capture.tracks.hand_shape import finger_bends, in_palm, palm_axes
+from teo_sign_capture.signing_space import MIRROR
 from teo_sign_capture.tracks.skeleton_track import EAR, MID_HIP, NECK, NOSE, SkeletonTrack
+from teo_skeleton_retriever.lifting.hand_axes import finger_bends, in_palm, palm_axes
 
 _TIPS = (4, 8, 12, 16, 20)
 _FINGERS = ("Index", "Middle", "Ring", "Pinky")

@@ -30,7 +30,7 @@ from teo_sign_authoring.notation.score_schema import Score
 from teo_sign_capture.entries.gates import objections
 from teo_sign_capture.entries.sign_entry import Origin, make_sign
 from teo_sign_capture.entries.take import capture_take
-from teo_sign_capture.lifting.clip import lift_clip
+from teo_sign_capture.recordings.recording import lifted_track
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_signs.errors import LutError
 from teo_synthetic_signer.body.body_shapes import BODIES
@@ -78,7 +78,7 @@ KNOWN_LAST = Draw(
     distance=1.8,
     without=(KNOWN, KNOWN_SINCE),
 )
-# On these it was chosen how often depths are found anew (`lifting.clip`).
+# On these it was chosen how often depths are found anew (`lifting.lifted_person`).
 KNOWN_DEPTHS = Draw(
     seed=33_871,
     signs=18,
@@ -216,7 +216,7 @@ def captured(robot: Robot, one: Performed, draw: Draw) -> Clip:
     begins, kept, more = time.perf_counter(), np.nan, np.nan
     quality: dict[str, float] = {}
     try:
-        take = capture_take(robot, lift_clip(clip))
+        take = capture_take(robot, lifted_track(clip))
         common = min(one.end, take.span.end) - max(one.start, take.span.start)
         kept, more = max(common, 0.0) / (one.end - one.start), take.span.duration - common
         made = make_sign(robot, one.score.gloss, [take], origin, accept=True)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Takes of written signs as recognition gets them: exact, lifted from points in a picture, and filmed.
 
-Beside what is compared (`recognition.appearance`) each take has the joints of TEO's arms and fingers, the
+Beside what is compared (`recognition.py` of capture) each take has the joints of TEO's arms and fingers, the
 plainest thing that could be compared instead.
 """
 
@@ -22,14 +22,12 @@ from teo_description.robot import Robot
 from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 from teo_sign_authoring.notation.performance import performance
 from teo_sign_authoring.notation.score_schema import Score
-from teo_sign_capture.lifting.clip import lift_clip
-from teo_sign_capture.recognition.appearance import MOMENTS, recording_appearance
-from teo_sign_capture.recordings.recording import open_recording, points_of
+from teo_sign_capture.recognition import MOMENTS, recording_appearance
+from teo_sign_capture.recordings.recording import lifted_track, open_recording, track_of
 from teo_sign_capture.retarget.arm_kinematics import mirrored
 from teo_sign_capture.retarget.robot_motion import free_motion
-from teo_sign_capture.tracks.person import measure_person
 from teo_sign_capture.tracks.segmentation import the_sign
-from teo_sign_capture.tracks.signer_motion import signer_motion
+from teo_sign_capture.tracks.signer_motion import measure_person, signer_motion
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_sign_capture.tracks.smoothing import smooth_track
 from teo_signs.errors import LutError
@@ -75,7 +73,7 @@ def shown_takes(robot: Robot, draw: Draw, films: int) -> list[ShownTake]:
         for number, one in enumerate(performed(draw._replace(bodies=bodies))):
             clip = pictured(one.track, distance=draw.distance, rate=_RATE, seed=draw.seed + turn)
             takes += _taken(robot, one.score.gloss, one.body, EXACT, one.track)
-            takes += _taken(robot, one.score.gloss, one.body, LIFTED, lift_clip(clip))
+            takes += _taken(robot, one.score.gloss, one.body, LIFTED, lifted_track(clip))
             if turn == 0 and number < films:
                 takes += _filmed(robot, one.score, one.body, draw.distance)
     return takes
@@ -102,7 +100,7 @@ def _filmed(robot: Robot, score: Score, body: str, distance: float) -> Iterator[
             take = Take(options)
             for _ in write_film((take.frame(index) for index in range(len(take))), film):
                 pass
-            track = lift_clip(points_of(open_recording(film), cache=folder))
+            track = track_of(open_recording(film), cache=folder)[0]
         except (LutError, SyntheticError) as error:
             print(f"left out: {score.gloss} by {body}, {FILMED}: {error}")
             return

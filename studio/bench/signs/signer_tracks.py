@@ -9,8 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_sign_capture.tracks.body_axes import in_body_axes
-from teo_sign_capture.tracks.skeleton_track import Keypoints, SkeletonTrack
+from teo_sign_capture.tracks.skeleton_track import Keypoints, SkeletonTrack, in_body_axes
 from teo_synthetic_signer.body.signer import Signer
 from teo_synthetic_signer.script.keys import Key
 from teo_synthetic_signer.script.motion import Motion

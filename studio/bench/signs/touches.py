@@ -16,14 +16,14 @@ from signs.pictured import pictured
 from signs.score_clips import Draw, Performed, performed
 from teo_common.arrays import Array
 from teo_description.robot import Robot
-from teo_sign_capture.lifting.clip import lift_clip
+from teo_sign_capture.recordings.recording import lifted_track
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.body_map import BodyMap
 from teo_sign_capture.retarget.head_motion import follow_head
-from teo_sign_capture.signing_space.hand_points import HEEL, person_hand_points
+from teo_sign_capture.signing_space import HEEL, person_hand_points
 from teo_sign_capture.tracks.head_pose import head_pose
-from teo_sign_capture.tracks.person import measure_person
 from teo_sign_capture.tracks.segmentation import the_sign
+from teo_sign_capture.tracks.signer_motion import measure_person
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_sign_capture.tracks.smoothing import smooth_track
 
@@ -48,7 +48,7 @@ def measure(robot: Robot, name: str, draw: Draw) -> list[Figure]:
 def _distances(robot: Robot, one: Performed, draw: Draw) -> tuple[Array, Array]:
     """Distances of the hands that sign during the stroke: exact, and lifted [m]. Shapes (n,)."""
     smooth = smooth_track(one.track).track
-    lifted = lift_clip(pictured(one.track, distance=draw.distance, seed=draw.seed))
+    lifted = lifted_track(pictured(one.track, distance=draw.distance, seed=draw.seed))
     handedness = the_sign(smooth).handedness
     sides = ("right", "left") if handedness == "both" else (handedness,)
     inside: NDArray[np.bool_] = (one.track.times >= one.start) & (one.track.times <= one.end)

@@ -47,8 +47,7 @@ from teo_signs.look_up_table import user_lut_directory
 from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP
 
 if TYPE_CHECKING:  # they take a second to load, which the other commands of `lut` need not wait for
-    from teo_sign_capture.entries.bag_capture import CaptureJob, Settings
-    from teo_sign_capture.entries.outcome import Outcome
+    from teo_sign_capture.entries.bag_capture import CaptureJob, Outcome, Settings
 
 
 def capture(
@@ -117,7 +116,7 @@ def capture(
             bags = [_filmed(camera, gloss, seconds, reporter)]
         if gloss is not None and bags and manifest is None:
             job = CaptureJob(gloss=gloss, bags=tuple(bags), cut=cut, handedness=hands, person=person)
-            _capture_one(job, settings, reporter)
+            capture_one(job, settings, reporter)
             return
         one_folder = bags is not None and len(bags) == 1 and bags[0].is_dir() and not is_bag(bags[0])
         if gloss is not None or one_folder == (manifest is not None) or (bags and not one_folder):
@@ -145,17 +144,17 @@ def _check_robot(name: str) -> None:
 
 def _filmed(camera: int, gloss: str, seconds: float, reporter: Reporter) -> Path:
     """Film a sign with a webcam, counting down, and return the film, which is kept."""
-    from teo_sign_capture.recordings.recording import default_cache
-    from teo_sign_capture.recordings.webcam import film_name, film_webcam
+    from teo_sign_capture.entries.bag_capture import default_recordings
+    from teo_sign_capture.recordings.video import film_name, film_webcam
 
-    out = film_name(default_cache().parent / "recordings", gloss)
+    out = film_name(default_recordings(), gloss)
     return film_webcam(camera, out, seconds=seconds, on_state=reporter.camera)
 
 
-def _capture_one(job: CaptureJob, settings: Settings, reporter: Reporter) -> None:
+def capture_one(job: CaptureJob, settings: Settings, reporter: Reporter) -> None:
+    """Capture a sign and say how well it was captured."""
     from teo_description.robot import Robot
-    from teo_sign_capture.entries.bag_capture import capture_bags
-    from teo_sign_capture.entries.outcome import captured_outcome
+    from teo_sign_capture.entries.bag_capture import capture_bags, captured_outcome
 
     with reporter:
         saved = capture_bags(Robot.load(settings.robot), job, settings, reporter.progress)
@@ -165,8 +164,8 @@ def _capture_one(job: CaptureJob, settings: Settings, reporter: Reporter) -> Non
 def _capture_all(
     jobs: list[CaptureJob], settings: Settings, count: int, dask: str | None, reporter: Reporter
 ) -> None:
+    from teo_sign_capture.entries.bag_capture import failures
     from teo_sign_capture.entries.batch import run_jobs, workers
-    from teo_sign_capture.entries.outcome import failures
 
     ended: list[Outcome] = []
 

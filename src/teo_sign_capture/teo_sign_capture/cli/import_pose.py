@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 
 from teo_common.installed_packages import NotOfferedError, offered_command
 from teo_sign_capture.cli.options import (
@@ -26,10 +25,8 @@ from teo_sign_capture.cli.options import (
     TableDirectory,
     upper_case,
 )
-from teo_sign_capture.cli.reporting import fail, tell
+from teo_sign_capture.cli.reporting import TerminalReporter, fail
 from teo_signs.errors import LutError
-
-_errors = Console(stderr=True, highlight=False)
 
 _DAY = "%Y-%m-%d"
 _NO_LICENCE = "not stated: ask the person who signs before passing it on"
@@ -114,9 +111,8 @@ def import_pose(
     if file is None or gloss is None:
         fail(LutError("bad_arguments", "expected FILE.pose --gloss GLOSS, or --signwriting FILE"))
 
-    from teo_description.robot import Robot
-    from teo_sign_capture.entries.bag_capture import CaptureJob, Settings, capture_bags
-    from teo_sign_capture.entries.outcome import captured_outcome
+    from teo_sign_capture.cli.capture import capture_one
+    from teo_sign_capture.entries.bag_capture import CaptureJob, Settings
     from teo_sign_capture.entries.take import Cut
     from teo_signs.look_up_table import user_lut_directory
 
@@ -136,8 +132,6 @@ def import_pose(
         gloss=gloss, bags=(file,), cut=Cut(start=start, end=end), handedness=hands, person=person
     )
     try:
-        with _errors.status(f"capturing {file.name}"):
-            saved = capture_bags(Robot.load(), job, settings)
+        capture_one(job, settings, TerminalReporter())
     except LutError as error:
         fail(error)
-    tell(captured_outcome(saved))

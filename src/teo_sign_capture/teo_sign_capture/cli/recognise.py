@@ -65,11 +65,9 @@ def recognise(
     Exit status: 0, 1 if the recording shows no sign (code and reason on standard error), 2 wrong options.
     """
     from teo_description.robot import Robot
-    from teo_sign_capture.entries.bag_capture import Settings, recorded_track
-    from teo_sign_capture.recognition.appearance import recording_appearance, sign_appearance
-    from teo_sign_capture.recognition.sign_index import SignIndex, compare
-    from teo_sign_capture.recordings.recording import default_cache, open_recording
-    from teo_signs.look_up_table import Lut, user_lut_directory
+    from teo_sign_capture.recognition import SignIndex, compare, recording_appearance, sign_appearance
+    from teo_sign_capture.recordings.recording import default_cache, open_recording, track_of
+    from teo_signs.look_up_table import Lut
 
     reporter = JsonReporter() if as_json else TerminalReporter()
     try:
@@ -78,11 +76,11 @@ def recognise(
         if not signs:
             raise LutError("empty_table", f"expected a table with signs, got none in {signs.place}")
         wanted = None if meant is None else sign_appearance(robot, signs[meant])  # unknown: say so at once
-        settings = Settings(table=user_lut_directory(), topic=topic, cache=cache or default_cache())
         with reporter:
-            track, _ = recorded_track(
+            track, _ = track_of(
                 open_recording(recording),
-                settings,
+                cache=cache or default_cache(),
+                topic=topic,
                 person=person,
                 on_progress=lambda done, total: reporter.progress(
                     f"looking for keypoints in {recording.name}", done, total

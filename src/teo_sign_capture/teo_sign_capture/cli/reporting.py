@@ -24,7 +24,7 @@ from rich.table import Table
 from teo_signs.errors import LutError
 
 if TYPE_CHECKING:  # they take a second to load, which the other commands of `lut` need not wait for
-    from teo_sign_capture.entries.outcome import Outcome
+    from teo_sign_capture.entries.bag_capture import Outcome
 
 _output = Console(highlight=False)
 _errors = Console(stderr=True, highlight=False)
@@ -78,7 +78,7 @@ class TerminalReporter:
 
     def end(self, outcomes: Sequence[Outcome], table: Path) -> None:
         """Say how the signs of a folder ended."""
-        from teo_sign_capture.entries.outcome import CAPTURED, failures
+        from teo_sign_capture.entries.bag_capture import CAPTURED, failures
 
         failed = failures(outcomes)
         captured = sum(outcome.code == CAPTURED for outcome in outcomes)
@@ -129,7 +129,7 @@ class JsonReporter:
 
     def failed(self, gloss: str | None, error: LutError) -> None:
         """Say why there is no sign."""
-        from teo_sign_capture.entries.outcome import failed_outcome
+        from teo_sign_capture.entries.bag_capture import failed_outcome
 
         write_json(asdict(failed_outcome(gloss, error)), sys.stdout)
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import datetime
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -17,19 +17,17 @@ from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]  # s
 from teo_description.humanoid import DEFAULT_ROBOT
 from teo_description.robot import Robot
 from teo_sign_capture.entries.capture_picture import save_capture_film, save_capture_picture
+from teo_sign_capture.entries.gates import RefusedError, Verdict
 from teo_sign_capture.entries.sign_entry import Captured, Origin, make_sign
 from teo_sign_capture.entries.take import Cut, SignTake, capture_take
-from teo_sign_capture.lifting.clip import lift_clip
-from teo_sign_capture.recognition.sign_index import SimilarSign, similar_signs
+from teo_sign_capture.recognition import SimilarSign, similar_signs
 from teo_sign_capture.recordings.recording import (
     Recording,
     default_cache,
     open_recording,
-    points_of,
     track_of,
 )
 from teo_sign_capture.recordings.skeleton_bag import write_skeletons
-from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import held_entry
 from teo_signs.sign import gloss_key
@@ -48,7 +46,7 @@ LIFTED = (
 )
 
 # Told what is done, how much of it, of how much.
-StageProgress = Callable[[str, int, int], None]
+_StageProgress = Callable[[str, int, int], None]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -130,7 +128,7 @@ class Saved:
 
 
 def capture_bags(
-    robot: Robot, job: CaptureJob, settings: Settings, on_progress: StageProgress | None = None
+    robot: Robot, job: CaptureJob, settings: Settings, on_progress: _StageProgress | None = None
 ) -> Saved:
     """Capture a sign from its takes and save it.
 
@@ -151,7 +149,7 @@ def capture_bags(
         return _captured(robot, job, settings, on_progress)
 
 
-def _captured(robot: Robot, job: CaptureJob, settings: Settings, on_progress: StageProgress | None) -> Saved:
+def _captured(robot: Robot, job: CaptureJob, settings: Settings, on_progress: _StageProgress | None) -> Saved:
     recordings = [open_recording(bag, slop=settings.slop) for bag in job.bags]
     takes: list[SignTake] = []
     warnings: list[str] = []
@@ -163,7 +161,14 @@ def _captured(robot: Robot, job: CaptureJob, settings: Settings, on_progress: St
             tell(f"looking for keypoints in {name}", done, total)
 
         try:
-            track, found = recorded_track(recording, settings, person=job.person, on_progress=told)
+            track, found = track_of(
+                recording,
+                cache=settings.cache,
+                topic=settings.topic,
+                person=job.person,
+                recorded=settings.recorded,
+                on_progress=told,
+            )
             warnings += found
             tell(f"bringing {recording.name} onto {robot.humanoid.name.upper()}", number, len(recordings))
             takes.append(capture_take(robot, track, cut=job.cut, handedness=job.handedness))
@@ -188,35 +193,6 @@ def _captured(robot: Robot, job: CaptureJob, settings: Settings, on_progress: St
         return saved
     tell("drawing", 0, 1)
     return _with_picture(saved, recordings, settings)
-
-
-def recorded_track(
-    recording: Recording,
-    settings: Settings,
-    *,
-    person: int | None = None,
-    on_progress: Callable[[int, int], None] | None = None,
-) -> tuple[SkeletonTrack, tuple[str, ...]]:
-    """The person of any recording, lifted into space where no depth was recorded.
-
-    Args:
-        recording: The recording.
-        settings: Its cache, topic and day of the recording count.
-        person: Id of the person; None for the signer.
-        on_progress: Told how many images of how many are looked at.
-
-    Returns:
-        The person, and what could not be used of the images, a sentence each.
-
-    Raises:
-        LutError: Of `track_of`, or of `points_of` and `lift_clip`.
-    """
-    if not recording.is_flat:
-        return track_of(
-            recording, cache=settings.cache, topic=settings.topic, person=person, on_progress=on_progress
-        )
-    clip = points_of(recording, cache=settings.cache, person=person, on_progress=on_progress)
-    return lift_clip(clip, recorded=settings.recorded), ()
 
 
 def is_captured(job: CaptureJob, table: Path) -> bool:
@@ -342,3 +318,86 @@ def keep_and_capture(
 def default_recordings() -> Path:
     """Where recordings are kept if nobody says otherwise."""
     return default_cache().parent / "recordings"
+
+
+CAPTURED, UNCHANGED, CRASHED = "captured", "unchanged", "crashed"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outcome:
+    """How the capture of one sign ended. `lut capture --json` prints these fields under these names.
+
+    Attributes:
+        gloss: The sign; empty where it never came to one.
+        code: "captured", "unchanged", or why it failed.
+        message: A sentence.
+        recording: The take that leads; empty without an entry, as for the fields below.
+        handedness: Hands that make the sign.
+        stroke: Where the sign begins and ends in that recording [s].
+        knots_count: Knots of the entry.
+        standing: How well founded it is.
+        quality: The entry's figures, each with its unit in its name.
+        gates: How the sign stands at every gate; also of one that a gate refused.
+        similar: The signs of the table that look most like it, the most alike first.
+        notes: What a reader of the entry must know.
+        warnings: What could not be used, and which sign it may be confused with, a sentence each.
+        files: What was written: the entry first, then picture and film.
+    """
+
+    gloss: str
+    code: str
+    message: str
+    recording: str = ""
+    handedness: str = ""
+    stroke: tuple[float, float] | None = None
+    knots_count: int = 0
+    standing: str = ""
+    quality: Mapping[str, float] = field(default_factory=dict)
+    gates: tuple[Verdict, ...] = ()
+    similar: tuple[SimilarSign, ...] = ()
+    notes: str = ""
+    warnings: tuple[str, ...] = ()
+    files: tuple[str, ...] = ()
+
+    @property
+    def failed(self) -> bool:
+        """Whether there is no good entry now."""
+        return self.code not in (CAPTURED, UNCHANGED)
+
+
+def captured_outcome(saved: Saved) -> Outcome:
+    """The outcome of a capture that left an entry."""
+    sign, take = saved.captured.sign, saved.captured.take
+    span = take.span
+    return Outcome(
+        gloss=sign.gloss,
+        code=CAPTURED,
+        message=f"{sign.handedness}, {sign.duration:.2f} s in {len(sign.times)} knots, from {span.start:.2f} "
+        f"to {span.end:.2f} s of {take.source}",
+        recording=take.source,
+        handedness=sign.handedness,
+        stroke=(round(span.start, 3), round(span.end, 3)),
+        knots_count=len(sign.times),
+        standing=sign.provenance.standing,
+        quality=dict(sign.quality),
+        gates=saved.captured.verdicts,
+        similar=saved.similar,
+        notes=sign.provenance.notes,
+        warnings=saved.warnings,
+        files=tuple(str(path) for path in (saved.path, *saved.pictures)),
+    )
+
+
+def failed_outcome(gloss: str | None, error: LutError) -> Outcome:
+    """The outcome of a capture that was refused, with what the gates said where it came to them."""
+    return Outcome(
+        gloss=gloss_key(gloss) if gloss else "",
+        code=error.code,
+        message=str(error),
+        gates=error.verdicts if isinstance(error, RefusedError) else (),
+    )
+
+
+def failures(outcomes: Iterable[Outcome]) -> list[Outcome]:
+    """Those that left no good entry."""
+    return [outcome for outcome in outcomes if outcome.failed]

@@ -21,13 +21,16 @@ from pathlib import Path
 from typing import Any, get_args
 
 from teo_description.robot import Robot
-from teo_sign_capture.entries.bag_capture import CaptureJob, Settings, capture_bags, is_captured
-from teo_sign_capture.entries.outcome import (
+from teo_sign_capture.entries.bag_capture import (
     CRASHED,
     UNCHANGED,
+    CaptureJob,
     Outcome,
+    Settings,
+    capture_bags,
     captured_outcome,
     failed_outcome,
+    is_captured,
 )
 from teo_sign_capture.entries.take import Cut
 from teo_sign_capture.recordings.recording import is_recording
@@ -91,13 +94,7 @@ def read_manifest(path: Path) -> list[CaptureJob]:
                 if (known.cut, known.handedness, known.person) != (job.cut, job.handedness, job.person):
                     expected = f"the same start, end, hands and person in every take of {job.gloss}"
                     raise _bad_manifest(path, rows.line_num, expected, "others")
-                jobs[job.gloss] = CaptureJob(
-                    gloss=job.gloss,
-                    bags=known.bags + job.bags,
-                    cut=job.cut,
-                    handedness=job.handedness,
-                    person=job.person,
-                )
+                jobs[job.gloss] = replace(job, bags=known.bags + job.bags)
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise LutError("bad_manifest", f"{path}: expected a CSV file, got: {error}") from error
     if not jobs:

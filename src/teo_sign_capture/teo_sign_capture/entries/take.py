@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.robot_motion import RobotMotion, retarget_motion
-from teo_sign_capture.tracks.person import measure_person
 from teo_sign_capture.tracks.segmentation import SignSpan, the_sign
-from teo_sign_capture.tracks.signer_motion import signer_motion
+from teo_sign_capture.tracks.signer_motion import measure_person, signer_motion
 from teo_sign_capture.tracks.skeleton_track import WRIST, SkeletonTrack
 from teo_sign_capture.tracks.smoothing import Gap, Smoothed, runs, seen, smooth_track
 from teo_signs.errors import LutError

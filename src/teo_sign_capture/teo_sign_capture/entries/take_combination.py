@@ -3,7 +3,7 @@
 """Several takes of one sign become one motion: those that agree are averaged, or the best is chosen.
 
 Takes are compared by what the robot shows: where each palm is, how hand and fingers are directed, and how the
-fingers are bent, in units that people just tell apart; time is warped (`time_warp`), as nobody signs
+fingers are bent, in units that people just tell apart; time is warped, as nobody signs
 twice at the same pace.
 """
 
@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
 from teo_common.arrays import Array
+from teo_common.dynamic_programming import warp
 from teo_description.humanoid import Side
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.robot_motion import RobotMotion
-from teo_sign_capture.time_warp import warp
 from teo_signs.errors import LutError
 
 _SIDES: tuple[Side, Side] = ("right", "left")

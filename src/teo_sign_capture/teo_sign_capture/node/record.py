@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 from rich.console import Console
@@ -27,9 +27,6 @@ from teo_sign_capture.cli.options import (
 from teo_sign_capture.cli.reporting import fail, tell
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import user_lut_directory
-
-if TYPE_CHECKING:
-    from teo_sign_capture.recordings.live_take import LiveState, LiveTake
 
 _SPIN = 0.05  # [s] between two looks at the clock
 _output = Console(highlight=False)
@@ -57,11 +54,11 @@ def record(
     from teo_description.robot import Robot
     from teo_sign_capture.entries.bag_capture import (
         Settings,
+        captured_outcome,
         check_free,
         default_recordings,
         keep_and_capture,
     )
-    from teo_sign_capture.entries.outcome import captured_outcome
 
     try:
         table = lut or user_lut_directory()
@@ -89,7 +86,7 @@ def _listen(countdown: float) -> list[Any]:
     import rclpy
     from teo_sign_msgs.msg import SkeletonArray
 
-    from teo_sign_capture.recordings.live_take import LiveTake
+    from teo_sign_capture.recordings.live_take import LiveTake, Phase
 
     rclpy.init()
     try:
@@ -99,27 +96,18 @@ def _listen(countdown: float) -> list[Any]:
             SkeletonArray, "skeletons", lambda message: take.add(message, time.monotonic()), 10
         )
         with Live(console=_output, transient=True) as live:
-            return _follow(take, lambda: rclpy.spin_once(node, timeout_sec=_SPIN), live)
+            while True:
+                rclpy.spin_once(node, timeout_sec=_SPIN)
+                state = take.step(time.monotonic())
+                if state.problem is not None:
+                    raise state.problem
+                if state.phase is Phase.DONE:
+                    return take.messages
+                if state.phase is Phase.COUNTDOWN:
+                    shown = Text(f"hands at rest … {state.remaining:.0f}", style="bold yellow")
+                else:
+                    left = f"({state.remaining:.0f} s left)"
+                    shown = Text(f"sign now, then hands at rest {left}", style="bold green")
+                live.update(shown)
     finally:
         rclpy.try_shutdown()
-
-
-def _follow(take: LiveTake, spin: Any, live: Live) -> list[Any]:
-    from teo_sign_capture.recordings.live_take import Phase
-
-    while True:
-        spin()
-        state = take.step(time.monotonic())
-        if state.problem is not None:
-            raise state.problem
-        if state.phase is Phase.DONE:
-            return take.messages
-        live.update(_shown(state))
-
-
-def _shown(state: LiveState) -> Text:
-    from teo_sign_capture.recordings.live_take import Phase
-
-    if state.phase is Phase.COUNTDOWN:
-        return Text(f"hands at rest … {state.remaining:.0f}", style="bold yellow")
-    return Text(f"sign now, then hands at rest ({state.remaining:.0f} s left)", style="bold green")

@@ -2,5 +2,5 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a sign is captured from.
 
-Bags of images or skeletons, `.pose` clips, clips of letters, live skeletons.
+Bags of images or skeletons, films, `.pose` clips, live skeletons.
 """

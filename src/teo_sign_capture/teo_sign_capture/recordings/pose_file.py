@@ -1,26 +1,124 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""A person's points in the picture over time, from a `.pose` file.
+"""`.pose` files: a person's points in the picture over time, read and written.
 
 The format is pose-format's (Moryossef, Müller, Fahrni: "pose-format: Library for Viewing, Augmenting, and
-Handling .pose Files", 2023), the usual one in sign language research.
+Handling .pose Files", 2023), the usual one in sign language research. Points are found by the names in a
+file's header, so that files with a part of the points are read as well. Known are the layouts that
+pose-format itself makes: MediaPipe Holistic's (whole, or without legs, fingers of the body or faces) and
+OpenPose's BODY_25 with hands. MediaPipe's POSE_WORLD_LANDMARKS are passed over: pose-format multiplies their
+metres with the size of the image, each axis with another figure.
 """
 
 from __future__ import annotations
 
-import io
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from io import BytesIO
 from pathlib import Path
 from typing import Any, NoReturn
 
 import numpy as np
-from numpy.typing import NDArray
 
 from teo_common.arrays import Array
-from teo_sign_capture.recordings.pose_layouts import LAYOUTS, Layout
 from teo_sign_capture.tracks.skeleton_track import BODY, EAR, EYE, HAND, HIP, SHOULDER
 from teo_signs.errors import LutError
+from teo_skeleton_retriever.lifting.clip import Points, PoseClip
+
+# MediaPipe's name of points of BODY_25; the neck and the middle of the hips are means of two, legs are left
+# out.
+_MEDIAPIPE_BODY = {
+    0: "NOSE",
+    2: "RIGHT_SHOULDER",
+    3: "RIGHT_ELBOW",
+    4: "RIGHT_WRIST",
+    5: "LEFT_SHOULDER",
+    6: "LEFT_ELBOW",
+    7: "LEFT_WRIST",
+    9: "RIGHT_HIP",
+    12: "LEFT_HIP",
+    15: "RIGHT_EYE",
+    16: "LEFT_EYE",
+    17: "RIGHT_EAR",
+    18: "LEFT_EAR",
+}
+
+_MEDIAPIPE_HAND = (
+    "WRIST",
+    *(f"THUMB_{joint}" for joint in ("CMC", "MCP", "IP", "TIP")),
+    *(
+        f"{finger}_FINGER_{joint}"
+        for finger in ("INDEX", "MIDDLE", "RING")
+        for joint in ("MCP", "PIP", "DIP", "TIP")
+    ),
+    *(f"PINKY_{joint}" for joint in ("MCP", "PIP", "DIP", "TIP")),
+)
+
+_OPENPOSE_BODY = {
+    0: "Nose",
+    2: "RShoulder",
+    3: "RElbow",
+    4: "RWrist",
+    5: "LShoulder",
+    6: "LElbow",
+    7: "LWrist",
+    9: "RHip",
+    12: "LHip",
+    15: "REye",
+    16: "LEye",
+    17: "REar",
+    18: "LEar",
+}
+
+# As pose-format names them, from the wrist out.
+_OPENPOSE_HAND = (
+    "BASE",
+    *(f"T_{joint}" for joint in ("STT", "BCMC", "MCP", "IP")),
+    *(f"{finger}_{joint}" for finger in "IMRP" for joint in ("CMC", "MCP", "PIP", "DIP")),
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Layout:
+    """Names of a kind of file.
+
+    Attributes:
+        name: For people.
+        body: Component of the body.
+        left_hand: Component of the person's own left hand.
+        right_hand: Likewise.
+        body_points: Name of points of BODY_25, by its number.
+        hand_points: Names of a hand's 21, in order.
+    """
+
+    name: str
+    body: str
+    left_hand: str
+    right_hand: str
+    body_points: Mapping[int, str]
+    hand_points: Sequence[str]
+
+
+_MEDIAPIPE = _Layout(
+    name="MediaPipe Holistic",
+    body="POSE_LANDMARKS",
+    left_hand="LEFT_HAND_LANDMARKS",
+    right_hand="RIGHT_HAND_LANDMARKS",
+    body_points=_MEDIAPIPE_BODY,
+    hand_points=_MEDIAPIPE_HAND,
+)
+_OPENPOSE = _Layout(
+    name="OpenPose",
+    body="pose_keypoints_2d",
+    left_hand="hand_left_keypoints_2d",
+    right_hand="hand_right_keypoints_2d",
+    body_points=_OPENPOSE_BODY,
+    hand_points=_OPENPOSE_HAND,
+)
+# The layouts that are read.
+_LAYOUTS = (_MEDIAPIPE, _OPENPOSE)
+
 
 # Several times what `MAX_FRAMES` of MediaPipe's 586 points need; more is not read to find that out.
 MAX_FILE_BYTES = 256 * 1024**2
@@ -40,51 +138,6 @@ _FRACTION_LIMIT = 1.5
 _MOST = 0.99
 # Shoulders of a clip that is scaled to them are nearer to 0 than this: in a picture that is a corner.
 _CENTRED = 0.1
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Points:
-    """Points of one part of a person over time.
-
-    Attributes:
-        places: Forward (to the viewer), to the signer's left, up; in the units of the clip. Depth, the first,
-            is only good relative to other points of the part, in a unit of its own, and NaN where the
-            layout has none; all three are NaN where the point was not seen. Shape (T, K, 3).
-        confidence: 0 to 1; 0 where not seen. Shape (T, K).
-    """
-
-    places: Array
-    confidence: Array
-
-    @property
-    def seen(self) -> NDArray[np.bool_]:
-        """Whether a point was seen. Shape (T, K)."""
-        return self.confidence > 0.0
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class PoseClip:
-    """A person in a picture over time.
-
-    Attributes:
-        rate: Frames a second [Hz].
-        body: BODY_25; what is not used in signing is not seen.
-        left_hand: The person's own left, 21 points.
-        right_hand: Likewise.
-        source: Name of the file.
-        layout: Which of `LAYOUTS` it has.
-    """
-
-    rate: float
-    body: Points
-    left_hand: Points
-    right_hand: Points
-    source: str
-    layout: str
-
-    def hand(self, side: str) -> Points:
-        """The hand of a side, "right" or "left"."""
-        return self.right_hand if side == "right" else self.left_hand
 
 
 def read_pose_file(path: Path, *, person: int | None = None) -> PoseClip:
@@ -151,7 +204,7 @@ class _Reader:
         size = (pose.header.dimensions.width, pose.header.dimensions.height)
         if _is_fractions(parts["body"].places, size):
             parts = {name: _scaled(points, size) for name, points in parts.items()}
-        return PoseClip(rate=rate, **parts, source=self._name, layout=layout.name)
+        return PoseClip(rate=rate, **parts, source=self._name)
 
     def _refuse(self, code: str, expected: str, got: str) -> NoReturn:
         raise LutError(code, f"{self._name}: expected {expected}, got {got}")
@@ -161,7 +214,7 @@ class _Reader:
 
         try:
             pose = Pose.read(content)
-            header = io.BytesIO()
+            header = BytesIO()
             pose.header.write(header)
             # Read short, a file of the older version would give fewer frames and wrong ones.
             version = round(float(pose.header.version), 3)
@@ -174,11 +227,11 @@ class _Reader:
             self._refuse("bad_pose_file", f"a .pose file of {expected} bytes", f"{len(content)} bytes")
         return pose
 
-    def _layout(self, header: Any) -> Layout:
+    def _layout(self, header: Any) -> _Layout:
         found = [component.name for component in header.components]
-        fitting = [layout for layout in LAYOUTS if layout.body in found]
+        fitting = [layout for layout in _LAYOUTS if layout.body in found]
         if not fitting:
-            known = ", ".join(f"{layout.name} ({layout.body})" for layout in LAYOUTS)
+            known = ", ".join(f"{layout.name} ({layout.body})" for layout in _LAYOUTS)
             self._refuse("unknown_layout", f"points of {known}", f"components {', '.join(found) or 'none'}")
         return fitting[0]
 
@@ -208,7 +261,7 @@ class _Reader:
                 "non_finite", "finite numbers for all points seen", f"none for point {point} in frame {frame}"
             )
 
-    def _parts(self, header: Any, layout: Layout, data: Array, confidence: Array) -> dict[str, Points]:
+    def _parts(self, header: Any, layout: _Layout, data: Array, confidence: Array) -> dict[str, Points]:
         starts = np.cumsum([0, *(len(component.points) for component in header.components)])
         columns = {
             component.name: {name: int(start) + index for index, name in enumerate(component.points)}
@@ -296,3 +349,32 @@ def _points(data: Array, confidence: Array, columns: dict[int, int | None], coun
     for array in (places, known):
         array.setflags(write=False)
     return Points(places=places, confidence=known)
+
+
+def pose_file(rate: float, points: Array, size: tuple[int, int]) -> bytes:
+    """A `.pose` file of one person.
+
+    Args:
+        rate: [Hz].
+        points: x, y [px], depth away from the camera [m], confidence, 0 where not seen. Shape (n, 67, 4).
+        size: Width and height of the picture [px].
+    """
+    from pose_format import Pose  # heavy, and needed by nothing but this
+    from pose_format.numpy import NumPyPoseBody
+    from pose_format.pose_header import PoseHeader, PoseHeaderComponent, PoseHeaderDimensions
+
+    body = [_OPENPOSE.body_points.get(row, f"unused_{row}") for row in range(BODY)]
+    components = [
+        PoseHeaderComponent(name, list(names), [], [], "XYZC")
+        for name, names in (
+            (_OPENPOSE.body, body),
+            (_OPENPOSE.left_hand, _OPENPOSE.hand_points),
+            (_OPENPOSE.right_hand, _OPENPOSE.hand_points),
+        )
+    ]
+    header = PoseHeader(0.2, PoseHeaderDimensions(*size, 0), components)
+    seen = points[:, None, :, 3]
+    data = np.ma.masked_array(points[:, None, :, :3], np.repeat(seen[..., None] <= 0.0, 3, axis=3))
+    stream = BytesIO()
+    Pose(header, NumPyPoseBody(rate, data, seen)).write(stream)
+    return stream.getvalue()

@@ -1,74 +1,32 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""What a sign is captured from: a bag of skeletons or images, a video, or a clip of a person's points.
+"""What a sign is captured from, read as a track: a bag of skeletons or images, a video, or a `.pose` file.
 
-Skeletons of a bag's images are found by the retriever, in a process of its own, and kept in a cache.
+What the retriever finds in images is kept in a cache.
 """
 
 from __future__ import annotations
 
-import functools
 import hashlib
 import os
 import tempfile
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
 from rosbags.highlevel import AnyReader
 
-from teo_sign_capture.recordings.own_process import Progress, not_retrieved, work_apart
-from teo_sign_capture.recordings.pose_file import PoseClip, read_pose_file
+from teo_sign_capture.recordings.keypoint_search import Progress, find_points, find_skeletons
+from teo_sign_capture.recordings.pose_file import read_pose_file
 from teo_sign_capture.recordings.skeleton_bag import TRUTH, TYPE, is_rendered, read_skeletons
-from teo_sign_capture.recordings.video import VIDEO_SUFFIXES, find_points_apart, is_video
-from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
+from teo_sign_capture.recordings.video import VIDEO_SUFFIXES, is_video
+from teo_sign_capture.tracks.skeleton_track import FACE, Keypoints, SkeletonTrack, in_body_axes
 from teo_signs.errors import LutError
 from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP
-
-
-def retrieve_apart(
-    bag: Path, out: Path, on_progress: Progress | None = None, *, slop: float = DEFAULT_SLOP
-) -> tuple[str, ...]:
-    """Find people in the images of a bag and write their skeletons, in a process of its own.
-
-    Args:
-        bag: The bag.
-        out: MCAP file to write; its folder exists.
-        on_progress: Told of the number of messages read and that of all.
-        slop: Greatest difference between the stamps of colour and depth [s].
-
-    Returns:
-        What could not be used of the images, a sentence each.
-
-    Raises:
-        LutError: The code of the retriever's error ("no_depth", "no_camera_info", ...) or of what was wrong
-            with all images; "not_retrieved" where there is none, or the process died.
-        OSError: `out` cannot be written.
-    """
-    return work_apart(functools.partial(_retrieve, slop=slop), bag, out, on_progress)
-
-
-def _retrieve(bag: Path, out: Path, on_progress: Progress | None, slop: float) -> tuple[str, ...]:
-    # Imported here: MediaPipe and what it needs are to be loaded by the process that runs it.
-    from teo_skeleton_retriever.errors import RetrieverError, TopicError
-    from teo_skeleton_retriever.recording import retrieve_recording
-
-    try:
-        report = retrieve_recording(bag, out=out, slop=slop, on_progress=on_progress)
-    except TopicError as error:
-        option = f"--{error.argument.replace('_', '-')}"
-        hint = f"if it has another name, run `retrieve {option} NAME` first"
-        raise LutError(error.code, f"{bag.name}: {error.sentence}: {hint}") from None
-    except RetrieverError as error:
-        raise LutError(error.code, f"{bag.name}: {error.sentence}") from None
-    if not report.images:
-        for code, sentence in report.reasons.items():
-            raise LutError(code, f"{bag.name}: {sentence}")
-        raise not_retrieved(bag, report.complaints[0])
-    if report.nobody:
-        raise LutError("nobody_in_space", f"{bag.name}: {report.nobody}")
-    return report.complaints
-
+from teo_skeleton_retriever.layouts.person_layout import BODY as PERSON_BODY
+from teo_skeleton_retriever.layouts.person_layout import LEFT_HAND, RIGHT_HAND
+from teo_skeleton_retriever.lifting.clip import PoseClip
+from teo_skeleton_retriever.lifting.lifted_person import lift_clip
 
 _BAG_SUFFIXES = (".mcap", ".db3", ".bag")
 _POSE_SUFFIX = ".pose"
@@ -191,58 +149,70 @@ def track_of(
     cache: Path,
     topic: str | None = None,
     person: int | None = None,
-    on_progress: Callable[[int, int], None] | None = None,
+    recorded: str | None = None,
+    on_progress: Progress | None = None,
 ) -> tuple[SkeletonTrack, tuple[str, ...]]:
-    """The person of a bag; skeletons are made of the images if they are not in the cache yet.
+    """The person of a recording, lifted into space where no depth was recorded.
 
     Args:
-        recording: The bag.
-        cache: Directory in which skeletons found in images are kept, by the digest of the bag.
-        topic: Topic of the skeletons; None finds it.
-        person: Id of the person; None for the signer.
-        on_progress: Told how many messages of how many are looked at, while skeletons are made.
+        recording: The recording.
+        cache: Directory in which what was found in images is kept, by the digest of the recording.
+        topic: Topic of a bag's skeletons; None finds it.
+        person: Id of the person, or which of several people of a `.pose` file, from 0; None for the signer.
+        recorded: Day of a video or `.pose` file, YYYY-MM-DD; None if not known. Bags know it.
+        on_progress: Told how many images of how many are looked at, while keypoints are found.
 
     Returns:
         The person, and what could not be used of the images, a sentence each.
 
     Raises:
-        LutError: Of `read_skeletons`, or of `retrieve_apart`: "no_depth", "no_camera_info", ...
+        LutError: Of `read_skeletons`, `read_pose_file` and `in_body_axes`, and where keypoints are looked for
+            of `find_skeletons` ("no_depth", "no_camera_info", ...) or `find_points`.
     """
-    bag, warnings = recording.path, ""
-    if not recording.has_skeletons and topic is None:
-        bag = _cached(recording, cache)
-        find = functools.partial(retrieve_apart, slop=recording.slop)
-        _fill_cache(recording.path, bag, find, on_progress)
-        warnings = _warnings_of(bag).read_text("utf-8") if _warnings_of(bag).is_file() else ""
-    track = read_skeletons(bag, topic=topic, signer=person)
+    found, warnings = recording.path, ""
+    if not recording.has_skeletons and (recording.is_flat or topic is None):
+        found = _cached(recording, cache)
+        _fill_cache(recording, found, on_progress)
+        warnings = _warnings_of(found).read_text("utf-8") if _warnings_of(found).is_file() else ""
+    if recording.is_flat:
+        clip = replace(read_pose_file(found, person=person), source=recording.name)
+        return lifted_track(clip, recorded=recorded), tuple(warnings.splitlines())
+    track = read_skeletons(found, topic=topic, signer=person)
     # A rendered recording has stamps, but no day on which anybody stood before a camera.
-    recorded = None if recording.rendered else track.recorded
-    return replace(track, source=recording.name, recorded=recorded), tuple(warnings.splitlines())
+    day = None if recording.rendered else track.recorded
+    return replace(track, source=recording.name, recorded=day), tuple(warnings.splitlines())
 
 
-def points_of(
-    recording: Recording,
-    *,
-    cache: Path,
-    person: int | None = None,
-    on_progress: Callable[[int, int], None] | None = None,
-) -> PoseClip:
-    """The person's points in a video or a `.pose` file; a video is looked at unless the cache has them.
+def lifted_track(clip: PoseClip, *, recorded: str | None = None) -> SkeletonTrack:
+    """Lift a clip into space, and bring it into the axes of the trunk.
 
     Args:
-        recording: The video or file.
-        cache: Directory in which points found in videos are kept, by the digest of the video.
-        person: Which of several people of a `.pose` file, from 0.
-        on_progress: Told how many images of how many are looked at.
+        clip: A person who faces the viewer, one shoulder and one hand seen at least in some frames.
+        recorded: Day of the recording, YYYY-MM-DD; None if not known.
 
     Raises:
-        LutError: Of `find_points_apart` or `read_pose_file`.
+        LutError: "no_torso", see `in_body_axes`.
     """
-    file = recording.path
-    if not recording.has_skeletons:
-        file = _cached(recording, cache)
-        _fill_cache(recording.path, file, find_points_apart, on_progress)
-    return replace(read_pose_file(file, person=person), source=recording.name)
+    person = lift_clip(clip)
+    frames = len(person.positions)
+    rows = {"body": PERSON_BODY, "left_hand": LEFT_HAND, "right_hand": RIGHT_HAND}
+    parts = {
+        name: Keypoints(
+            positions=person.positions[:, part],
+            sigma=person.sigma[:, part],
+            confidence=person.confidence[:, part],
+            status=person.status[:, part],
+        )
+        for name, part in rows.items()
+    }
+    return in_body_axes(
+        times=np.arange(frames, dtype=np.float64) / clip.rate,
+        **parts,
+        face=Keypoints.lost(frames, FACE),
+        source=clip.source,
+        recorded=recorded,
+        up=(0.0, 0.0, 1.0),
+    )
 
 
 def skeletons_of(recording: Recording, cache: Path) -> Path:
@@ -273,12 +243,7 @@ def _topics(path: Path) -> tuple[dict[str, str], float]:
         ) from error
 
 
-def _fill_cache(
-    recording: Path,
-    out: Path,
-    find: Callable[[Path, Path, Progress | None], tuple[str, ...]],
-    on_progress: Progress | None,
-) -> None:
+def _fill_cache(recording: Recording, out: Path, on_progress: Progress | None) -> None:
     """Find the people in images unless that was done, and write beside them what could not be used."""
     if out.is_file():
         return
@@ -287,10 +252,13 @@ def _fill_cache(
         # Two captures of one recording at a time must not write one file.
         with tempfile.TemporaryDirectory(dir=out.parent, prefix=".") as folder:
             made = Path(folder) / f"found{out.suffix}"
-            complaints = find(recording, made, on_progress)
-            if complaints:  # what is left of a recording that was cut off is worth a look
-                _warnings_of(made).write_text("\n".join(complaints), "utf-8")
-                _warnings_of(made).replace(_warnings_of(out))
+            if recording.is_flat:
+                find_points(recording.path, made, on_progress)
+            else:
+                complaints = find_skeletons(recording.path, made, on_progress, slop=recording.slop)
+                if complaints:  # what is left of a recording that was cut off is worth a look
+                    _warnings_of(made).write_text("\n".join(complaints), "utf-8")
+                    _warnings_of(made).replace(_warnings_of(out))
             made.replace(out)
     except OSError as error:
         raise LutError(

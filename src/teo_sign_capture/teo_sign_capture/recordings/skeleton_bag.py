@@ -12,8 +12,7 @@ from typing import Any
 import numpy as np
 from rosbags.highlevel import AnyReader
 
-from teo_sign_capture.tracks.body_axes import in_body_axes
-from teo_sign_capture.tracks.skeleton_track import BODY, FACE, HAND, Keypoints, SkeletonTrack
+from teo_sign_capture.tracks.skeleton_track import BODY, FACE, HAND, Keypoints, SkeletonTrack, in_body_axes
 from teo_signs.errors import LutError
 
 TYPE = "teo_sign_msgs/msg/SkeletonArray"

@@ -1,31 +1,26 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Images of a video file with their times, and the person's points in them, kept as a `.pose` file.
+"""Films: the images of a video file with their times, and a film of a sign from a webcam.
 
 PyAV reads a video, as it gives each image the time that the file says: phones change their rate with the
-light, and a sign must not change its pace with it. The retriever's detector finds the points. The file is one
-as other programs write and read them (BODY_25 and hands of 21 points, in OpenPose's names), so that a video
-goes the way of every clip. Only hands have depths, as the detector imagines them.
+light, and a sign must not change its pace with it. OpenCV opens a webcam, as it knows the cameras of Linux,
+macOS and Windows by their number.
 """
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Iterable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
-from io import BytesIO
+import time
+from collections.abc import Callable, Iterator
+from datetime import datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_common.arrays import Array
-from teo_common.atomic_files import write_atomically
-from teo_sign_capture.recordings.own_process import Progress, work_apart
-from teo_sign_capture.recordings.pose_layouts import OPENPOSE
-from teo_sign_capture.tracks.skeleton_track import BODY, HAND
 from teo_signs.errors import LutError
+from teo_signs.sign import gloss_key
 
 Image = NDArray[np.uint8]
 
@@ -57,7 +52,7 @@ def is_video(path: Path) -> bool:
     return path.is_file() and path.suffix.lower() in VIDEO_SUFFIXES
 
 
-def _count_images(path: Path) -> int:
+def count_images(path: Path) -> int:
     """About how many images `video_images` gives; 0 where the file does not say."""
     import av
 
@@ -113,8 +108,6 @@ def video_images(path: Path) -> Iterator[VideoImage]:
 
 def _upright(frame: object) -> Image:
     """An image as players show it: phones are held upright and note so beside the images."""
-    import cv2
-
     image: Image = frame.to_ndarray(format="rgb24")  # type: ignore[attr-defined]  # PyAV's VideoFrame
     image = np.rot90(image, round(frame.rotation / 90.0) % 4)  # type: ignore[attr-defined]  # counter-clockwise
     share = _LONGEST_SIDE / max(image.shape[:2])
@@ -124,155 +117,79 @@ def _upright(frame: object) -> Image:
     return np.ascontiguousarray(image)
 
 
-if TYPE_CHECKING:
-    from teo_skeleton_retriever.detectors.detector import Detector
-    from teo_skeleton_retriever.layouts.person_2d import Person2D
-
-# Between two images that are farther apart than so many usual periods nothing is known.
-_LONGEST_GAP = 2.5
-# Share of the time between two images within which a moment is that of the nearer one.
-_AT_IT = 0.05
-_POINTS = BODY + 2 * HAND
+# [s] Between the start and the film: to take the hands from the keyboard to rest.
+COUNTDOWN = 3
 
 
-def find_points_apart(video: Path, out: Path, on_progress: Progress | None = None) -> tuple[str, ...]:
-    """Find the person in a video and write a `.pose` file, in a process of its own.
+def film_name(folder: Path, gloss: str) -> Path:
+    """Where the film of a sign that is made now is kept."""
+    return folder / f"{gloss_key(gloss)}-{datetime.now():%Y%m%d-%H%M%S}.mp4"
+
+
+def film_webcam(
+    camera: int | str,
+    out: Path,
+    *,
+    seconds: float,
+    on_state: Callable[[str], None],
+    countdown: int = COUNTDOWN,
+) -> Path:
+    """Count down, film, and write the film with the times at which its images came.
 
     Args:
-        video: The video.
-        out: File to write; its folder exists.
-        on_progress: Told of the number of images read and about that of all.
+        camera: Number of the webcam, 0 the usual one; or what else OpenCV can open.
+        out: MP4 file to write; its folder is made.
+        seconds: How long to film [s].
+        on_state: Told "3", "2", "1", "sign now" and "done".
+        countdown: [s].
 
     Returns:
-        Nothing: a video is used whole or refused.
+        `out`.
 
     Raises:
-        LutError: What `video_images` raises, "too_short" for fewer than two images, "no_person" if nobody is
-            seen in any, "not_retrieved" where the process died.
-        OSError: `out` cannot be written.
+        LutError: "no_camera" if there is none of that number or it gives no image; "not_written".
     """
-    return work_apart(_find, video, out, on_progress)
-
-
-def _find(video: Path, out: Path, on_progress: Progress | None) -> tuple[str, ...]:
-    # Imported here: MediaPipe and what it needs are to be loaded by the process that runs it.
-    from teo_skeleton_retriever.detectors import make_detector
     from teo_skeleton_retriever.errors import RetrieverError
+    from teo_skeleton_retriever.output.overlay_video import overlay_video
 
-    times: list[float] = []
-    found: list[Array] = []
-    size = (0, 0)
-    total = _count_images(video)
+    # A camera that is not there is said below, in one sentence.
+    cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
+    opened = cv2.VideoCapture(camera)
     try:
-        detector = make_detector("mediapipe")
-        try:
-            for time, image, people in _detected(detector, video_images(video)):
-                times.append(time)
-                found.append(_points(people[0]) if people else np.zeros((_POINTS, 4)))
-                size = (image.shape[1], image.shape[0])
-                if on_progress is not None:
-                    on_progress(len(times), max(total, len(times)))
-        finally:
-            detector.close()
-    except RetrieverError as error:
-        raise LutError(error.code, f"{video.name}: {error.sentence}") from None
-    if len(times) < 2:
-        raise LutError("too_short", f"{video.name}: expected two images or more, got {len(times)}")
-    points = np.array(found)
-    if not points[..., 3].any():
+        if not opened.isOpened():
+            raise LutError(
+                "no_camera",
+                f"expected a webcam of number {camera}, got none that opens: plug one in, try --camera 1, "
+                "or film the sign with a phone and give its film instead",
+            )
+        out.parent.mkdir(parents=True, exist_ok=True)
+        _count_down(opened, countdown, on_state)
+        on_state("sign now")
+        count, begins = 0, time.monotonic()
+        with overlay_video(out) as film:
+            while (now := time.monotonic() - begins) < seconds:
+                there, image = opened.read()
+                if not there:
+                    break
+                film.add(cv2.cvtColor(image, cv2.COLOR_BGR2RGB), now)
+                count += 1
+    except (RetrieverError, OSError) as error:
+        raise LutError("not_written", f"{out}: expected a place to write a film to, got: {error}") from error
+    finally:
+        opened.release()
+    if not count:
         raise LutError(
-            "no_person",
-            f"{video.name}: expected a person in one of {len(times)} images, got nobody: were head and "
-            "arms in the picture?",
+            "no_camera", f"expected images of webcam {camera}, got none: is another program using it?"
         )
-    write_atomically(out, pose_file(*evenly(np.array(times), points), size))
-    return ()
+    on_state("done")
+    return out
 
 
-def _detected(
-    detector: Detector, images: Iterable[VideoImage]
-) -> Iterator[tuple[float, Image, tuple[Person2D, ...]]]:
-    """Images in order with the people in them, as many looked at at once as the detector can."""
-    # Two of MediaPipe's images at a time take two thirds of the time of one after the other on two cores.
-    waiting: deque[tuple[VideoImage, Future[tuple[Person2D, ...]]]] = deque()
-
-    def first() -> tuple[float, Image, tuple[Person2D, ...]]:
-        shown, people = waiting.popleft()
-        return shown.time, shown.image, people.result()
-
-    with ThreadPoolExecutor(detector.images_at_once) as threads:
-        for shown in images:
-            waiting.append((shown, threads.submit(detector.detect, shown.image, shown.time)))
-            if len(waiting) > detector.images_at_once:
-                yield first()
-        while waiting:
-            yield first()
-
-
-def _points(person: object) -> Array:
-    """A person of the detector: x, y, depth, confidence of body, left and right hand. Shape (67, 4)."""
-    points = np.zeros((_POINTS, 4))
-    parts = (("body", 0, BODY), ("left_hand", BODY, HAND), ("right_hand", BODY + HAND, HAND))
-    for part, start, count in parts:
-        keypoints = getattr(person, part)
-        if len(keypoints):
-            points[start : start + count, [0, 1, 3]] = keypoints
-        shape = getattr(person, f"{part}_world", None)
-        if shape is not None:
-            points[start : start + count, 2] = shape[:, 2]
-    return points
-
-
-def evenly(times: Array, points: Array) -> tuple[float, Array]:
-    """Points at an even rate, as `.pose` files have them: straight between the images before and after.
-
-    Args:
-        times: [s], strictly increasing. Shape (n,), n at least 2.
-        points: x, y, depth, confidence, 0 where not seen. Shape (n, k, 4).
-
-    Returns:
-        The rate [Hz], and points at it; not seen where either image is without them, or both are far apart.
-        Shape (m, k, 4).
-    """
-    period = float(np.median(np.diff(times)))
-    even = times[0] + period * np.arange(int(np.floor((times[-1] - times[0]) / period + 1e-6)) + 1)
-    after = np.clip(np.searchsorted(times, even), 1, len(times) - 1)
-    gap = times[after] - times[after - 1]
-    share = np.clip((even - times[after - 1]) / gap, 0.0, 1.0)[:, None, None]
-    first, second = points[after - 1], points[after]
-    between = first + share * (second - first)
-    near = (gap <= _LONGEST_GAP * period)[:, None]
-    both = (first[..., 3] > 0.0) & (second[..., 3] > 0.0) & near
-    # What is seen in one of the two images alone is where it was if that is all but at this moment.
-    nearest = np.where(share > 0.5, second, first)
-    at_it = np.minimum(share, 1.0 - share)[..., 0] < _AT_IT
-    return 1.0 / period, np.where(both[..., None], between, np.where(at_it[..., None], nearest, 0.0))
-
-
-def pose_file(rate: float, points: Array, size: tuple[int, int]) -> bytes:
-    """A `.pose` file of one person.
-
-    Args:
-        rate: [Hz].
-        points: x, y [px], depth away from the camera [m], confidence, 0 where not seen. Shape (n, 67, 4).
-        size: Width and height of the picture [px].
-    """
-    from pose_format import Pose  # heavy, and needed by nothing but this
-    from pose_format.numpy import NumPyPoseBody
-    from pose_format.pose_header import PoseHeader, PoseHeaderComponent, PoseHeaderDimensions
-
-    body = [OPENPOSE.body_points.get(row, f"unused_{row}") for row in range(BODY)]
-    components = [
-        PoseHeaderComponent(name, list(names), [], [], "XYZC")
-        for name, names in (
-            (OPENPOSE.body, body),
-            (OPENPOSE.left_hand, OPENPOSE.hand_points),
-            (OPENPOSE.right_hand, OPENPOSE.hand_points),
-        )
-    ]
-    header = PoseHeader(0.2, PoseHeaderDimensions(*size, 0), components)
-    seen = points[:, None, :, 3]
-    data = np.ma.masked_array(points[:, None, :, :3], np.repeat(seen[..., None] <= 0.0, 3, axis=3))
-    stream = BytesIO()
-    Pose(header, NumPyPoseBody(rate, data, seen)).write(stream)
-    return stream.getvalue()
+def _count_down(opened: cv2.VideoCapture, countdown: int, on_state: Callable[[str], None]) -> None:
+    """Show images to nobody meanwhile: a camera finds its exposure, and keeps no old images."""
+    for left in range(countdown, 0, -1):
+        on_state(str(left))
+        until = time.monotonic() + 1.0
+        while time.monotonic() < until and opened.read()[0]:
+            pass
+        time.sleep(max(until - time.monotonic(), 0.0))

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from teo_common.arrays import Array
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, ArmPoses, easy_arm
 from teo_sign_capture.retarget.hand_goals import HandGoals, PairGoals
-from teo_sign_capture.signing_space.hand_points import MIRROR
+from teo_sign_capture.signing_space import MIRROR
 
 Goals = TypeVar("Goals", HandGoals, PairGoals)
 

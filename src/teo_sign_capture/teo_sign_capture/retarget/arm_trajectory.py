@@ -20,10 +20,10 @@ from numpy.typing import NDArray
 from scipy.linalg import solveh_banded
 
 from teo_common.arrays import Array
+from teo_common.dynamic_programming import cheapest_path
 from teo_sign_capture.retarget.arm_kinematics import Bounds
 from teo_sign_capture.retarget.arm_residuals import ArmProblem, Quadratic
 from teo_sign_capture.retarget.collision_terms import CollisionTerms
-from teo_sign_capture.viterbi import cheapest_path
 
 # A joint so near to its bound is at it [rad].
 _ON_BOUND = 1e-9

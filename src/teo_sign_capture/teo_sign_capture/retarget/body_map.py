@@ -3,12 +3,12 @@
 """Where on a robot a place at or before a person's body is.
 
 A robot is not built as a person: TEO's shoulders are nearly twice as far apart, its head is small. In the
-air the workspace is scaled axis by axis (`WorkspaceScaling`): crown, shoulders and waist keep their heights;
+air the workspace is scaled axis by axis (`_WorkspaceScaling`): crown, shoulders and waist keep their heights;
 distances before the body scale with the length of the arms; sideways the scale is half-way between both, so
 that circles stay nearly round; and arms stretched out, or hanging, stay so.
 
 At the body this is bent so that each place of articulation comes to lie on TEO's own
-(`signing_space.places`): a chin is a chin. What is between is interpolated smoothly, and the bend fades away
+(`signing_space`): a chin is a chin. What is between is interpolated smoothly, and the bend fades away
 from the body within a forearm's length. At the head all this is done in the head's own axes: a hand at the
 chin stays there while the head turns.
 """
@@ -26,9 +26,8 @@ from teo_description.humanoid import Humanoid
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.head_motion import HeadMotion
-from teo_sign_capture.signing_space.hand_points import MIRROR
-from teo_sign_capture.signing_space.places import find_place
-from teo_sign_capture.tracks.person import Person
+from teo_sign_capture.signing_space import MIRROR, find_place
+from teo_sign_capture.tracks.signer_motion import Person
 
 # Share of the way from the shoulders to the hips at which the waist is.
 _WAIST = 0.7
@@ -36,7 +35,7 @@ _WAIST = 0.7
 _BEYOND = 3.0
 
 
-class WorkspaceScaling:
+class _WorkspaceScaling:
     """The map of one person's space to TEO's, both from between the shoulders.
 
     Attributes:
@@ -97,7 +96,7 @@ _SKIN = 0.015
 # [m] Nearer to the middle of the head a hand goes with it, farther it does not, for the same person.
 _HEAD_HELD, _HEAD_LEFT = 0.17, 0.32
 
-# Names in `signing_space.places` of a person's places; those aside stand for both sides.
+# Names in `signing_space` of a person's places; those aside stand for both sides.
 _MIDDLE = {
     name: name
     for name in ("head_top", "forehead", "nose", "mouth", "chin", "throat", "upper_chest", "chest", "belly")
@@ -120,7 +119,7 @@ class BodyMap:
         self.shoulder_height = float(arm.shoulder[2])
         self.humanoid = robot.humanoid
         crown = find_place(self.humanoid, "head_top").point[2] - self.shoulder_height
-        self._scaling = WorkspaceScaling(person, reach, shoulder, self.shoulder_height, crown)
+        self._scaling = _WorkspaceScaling(person, reach, shoulder, self.shoulder_height, crown)
         self.scale: Array = self._scaling.scale
         self._size = person.trunk / _TRUNK
         self._boxes = body_boxes(robot)

@@ -15,7 +15,7 @@ from teo_description.humanoid import Side
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, mirrored, mirrored_hand
 from teo_sign_capture.retarget.arm_residuals import Quadratic
-from teo_sign_capture.signing_space.hand_points import MIRROR
+from teo_sign_capture.signing_space import MIRROR
 
 # [m] Parts that come nearer than this are pushed apart.
 WANTED = 0.014

@@ -26,7 +26,7 @@ from teo_description.humanoid import Side
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, arm_bounds
 from teo_sign_capture.retarget.body_map import BodyMap, smooth_step
 from teo_sign_capture.retarget.head_motion import HeadMotion
-from teo_sign_capture.signing_space.hand_points import COUNT, HEEL, MIRROR, PALM
+from teo_sign_capture.signing_space import COUNT, HEEL, MIRROR, PALM
 from teo_sign_capture.tracks.signer_motion import SignerArm
 
 # [m] Points of a hand whose distances to the body differ by less than this share the contact: about a
@@ -107,7 +107,7 @@ class PairGoals:
     order: Array
 
 
-class ContactPart(NamedTuple):
+class _ContactPart(NamedTuple):
     """The point of a hand that counts, and how much it is on the body.
 
     Attributes:
@@ -124,7 +124,7 @@ class ContactPart(NamedTuple):
         return point
 
 
-def contact_part(body: BodyMap, head: HeadMotion, points: Array) -> ContactPart:
+def _contact_part(body: BodyMap, head: HeadMotion, points: Array) -> _ContactPart:
     """Find the point that counts.
 
     The end of the hand at the wrist touches nothing: on an arm that is folded it is near the chest while the
@@ -141,24 +141,29 @@ def contact_part(body: BodyMap, head: HeadMotion, points: Array) -> ContactPart:
     touching = np.exp((nearest[:, None] - away) / _BLEND)
     touching /= touching.sum(axis=1, keepdims=True)
     shares = contact[:, None] * touching + (1.0 - contact[:, None]) * (np.arange(COUNT) == PALM)
-    return ContactPart(shares, contact)
+    return _ContactPart(shares, contact)
 
 
-def hand_goals(body: BodyMap, head: HeadMotion, arm: SignerArm, part: ContactPart, teo: Array) -> HandGoals:
+def hand_goals(body: BodyMap, head: HeadMotion, arm: SignerArm, teo: Array) -> tuple[HandGoals, Array]:
     """Find what is wanted of a hand.
 
     Args:
         body: The map from the person to TEO.
         head: The heads of both.
         arm: The person's.
-        part: The point of the hand that counts.
         teo: `robot_hand_points` of TEO's hand. Shape (T, COUNT, 3).
+
+    Returns:
+        The goals, and the point of the person's hand whose place counts, in the axes of the track [m], shape
+        (T, 3).
     """
-    place = body.outside(body.place_with_head(part.point(arm.points)[:, None], head)[:, 0])
+    part = _contact_part(body, head, arm.points)
+    meant = part.point(arm.points)
+    place = body.outside(body.place_with_head(meant[:, None], head)[:, 0])
     flip = MIRROR if arm.side == "left" else np.ones(3)
     limbs = np.diff(arm.joints, axis=1) * flip
     limbs /= np.linalg.norm(limbs, axis=2, keepdims=True)
-    return HandGoals(
+    goals = HandGoals(
         local=part.point(teo),
         place=place * flip,
         contact=part.contact,
@@ -167,6 +172,7 @@ def hand_goals(body: BodyMap, head: HeadMotion, arm: SignerArm, part: ContactPar
         upper_arm=limbs[:, 0],
         fore_arm=limbs[:, 1],
     )
+    return goals, meant
 
 
 def pair_goals(

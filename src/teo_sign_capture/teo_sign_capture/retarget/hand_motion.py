@@ -22,11 +22,12 @@ from typing import NamedTuple
 import numpy as np
 
 from teo_common.arrays import Array
+from teo_common.dynamic_programming import cheapest_path
 from teo_description.hand_geometry import HandGeometry, HandTable
-from teo_sign_capture.signing_space.hand_points import KNUCKLES, finger_rows
-from teo_sign_capture.tracks.body_axes import smoothed
+from teo_sign_capture.signing_space import finger_rows
 from teo_sign_capture.tracks.signer_motion import SignerArm
-from teo_sign_capture.viterbi import cheapest_path
+from teo_sign_capture.tracks.skeleton_track import smoothed
+from teo_skeleton_retriever.lifting.hand_axes import KNUCKLES
 
 # Joints of a person's finger.
 _FINGER_JOINTS = 3

@@ -6,7 +6,7 @@ A major place is what a person who watches reads of where a sign is made: five h
 whether the hand is on the face, elsewhere on the body, in the air before it or behind it. A hand that is 12
 cm off within these is at the same place; one that is 5 cm off across a border may be at another. A hand has a
 breadth: one that lies across a border is on both its sides. The finer names are those of
-`signing_space.places`.
+`signing_space`.
 
 Person and robot are each read by their own body: the person's chin, crown, waist and shoulders, and TEO's.
 Nothing of the map that says where the robot's hand is to go is used, so that its faults are seen as well.
@@ -22,9 +22,8 @@ from numpy.typing import NDArray
 
 from teo_common.arrays import Array
 from teo_sign_capture.retarget.body_map import BodyMap
-from teo_sign_capture.signing_space.hand_points import MIRROR
-from teo_sign_capture.signing_space.places import find_place
-from teo_sign_capture.tracks.person import Person
+from teo_sign_capture.signing_space import MIRROR, find_place
+from teo_sign_capture.tracks.signer_motion import Person
 
 Flags = NDArray[np.bool_]
 
@@ -123,7 +122,7 @@ def _meet(first: NDArray[np.intp], second: NDArray[np.intp]) -> Flags:
     return np.asarray(np.maximum(first[:, 0], second[:, 0]) <= np.minimum(first[:, 1], second[:, 1]))
 
 
-# Places of the face, as in `Person.places` and `signing_space.places`.
+# Places of the face, as in `Person.places` and `signing_space`.
 _FACE = ("forehead", "eye", "nose", "mouth", "chin")
 # Shares of the way from the shoulders to the hips at which the chest ends and the waist is.
 _CHEST, _WAIST = 1.0 / 3.0, 0.7
@@ -141,24 +140,10 @@ _BREADTH, _BREADTH_TEO = 0.085, 0.09
 _BEHIND = 0.10
 
 
-class PlaceFigures(NamedTuple):
-    """How the places of one hand compare.
-
-    Attributes:
-        same: Whether both hands are in one zone, at least in part. Shape (T,).
-        middles_same: Whether their middles are. Shape (T,).
-        wrong: Whether who watches reads another place. Shape (T,).
-    """
-
-    same: Flags
-    middles_same: Flags
-    wrong: Flags
-
-
 def place_figures(
     body: BodyMap, person: Person, points: Array, moved: Array, teo: Array, side: str
-) -> PlaceFigures:
-    """Compare the places of one hand.
+) -> dict[str, Flags]:
+    """Compare the places of one hand, by the fields of `RobotMotion`. Shape (T,) each.
 
     Args:
         body: The map, for TEO's size.
@@ -174,11 +159,11 @@ def place_figures(
     # On the face is judged where the face is: a head that bows takes it along.
     shown = shown._replace(from_face=zones.find((points - moved) * flip).from_face)
     found = own.find(teo)
-    return PlaceFigures(
-        same=same_zone(shown, found),
-        middles_same=same_zone_of_middles(shown, found),
-        wrong=wrong_place(shown, found),
-    )
+    return {
+        "same_zone": same_zone(shown, found),
+        "same_zone_of_middle": same_zone_of_middles(shown, found),
+        "wrong_place": wrong_place(shown, found),
+    }
 
 
 def _zones_of_person(person: Person) -> Zones:

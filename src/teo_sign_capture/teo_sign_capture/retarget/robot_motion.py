@@ -11,6 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from teo_common.arrays import Array
 from teo_description.hand_geometry import hand_table
@@ -34,14 +35,13 @@ from teo_sign_capture.retarget.collision_terms import CollisionModel
 from teo_sign_capture.retarget.hand_goals import (
     HandGoals,
     before_folded_arm,
-    contact_part,
     hand_goals,
     pair_goals,
 )
 from teo_sign_capture.retarget.hand_motion import HandMotion, follow_hand
 from teo_sign_capture.retarget.head_motion import HeadMotion, follow_head, follow_trunk
 from teo_sign_capture.retarget.place_figures import place_figures
-from teo_sign_capture.signing_space.hand_points import robot_hand_points
+from teo_sign_capture.signing_space import robot_hand_points
 from teo_sign_capture.tracks.signer_motion import SignerMotion
 
 _COLUMN = {"right": 0, "left": 1}
@@ -91,13 +91,9 @@ def free_motion(robot: Robot, signer: SignerMotion) -> FreeMotion:
     body = BodyMap(robot, chain, signer.person)
     hands = {side: follow_hand(table, signer.times, arm) for side, arm in signer.arms.items()}
     points = {side: robot_hand_points(table, hand.axes) for side, hand in hands.items()}
-    parts = {side: contact_part(body, head, arm.points) for side, arm in signer.arms.items()}
-    goals = {
-        side: hand_goals(body, head, arm, parts[side], points[side]) for side, arm in signer.arms.items()
-    }
-    pair = None
-    if len(signer.arms) == 2:
-        pair = pair_goals(body, signer.times, signer.arms, points)
+    wanted = {side: hand_goals(body, head, arm, points[side]) for side, arm in signer.arms.items()}
+    goals = {side: found for side, (found, _) in wanted.items()}
+    pair = pair_goals(body, signer.times, signer.arms, points) if len(signer.arms) == 2 else None
     problem = ArmProblem(chain, tuple(before_folded_arm(chain, goal) for goal in goals.values()), pair)
     bounds = [arm_bounds(robot.humanoid, side) for side in signer.arms]
     return FreeMotion(
@@ -105,7 +101,7 @@ def free_motion(robot: Robot, signer: SignerMotion) -> FreeMotion:
         body=body,
         head=head,
         hands=hands,
-        meant={side: parts[side].point(arm.points) for side, arm in signer.arms.items()},
+        meant={side: meant for side, (_, meant) in wanted.items()},
         goals=goals,
         problem=problem,
         bounds=bounds,
@@ -192,28 +188,19 @@ def _limb(humanoid: Humanoid, side: Side, arm: Array, hand: Array) -> Array:
 
 def _hand_figures(free: FreeMotion, signer: SignerMotion, arms: Array) -> dict[str, Array]:
     """Errors of the hands, their contacts and places, by the fields of `RobotMotion`. Shapes (T, 2)."""
-    names = (
-        "place_error",
-        "palm_error",
-        "finger_error",
-        "flexion_error",
-        "contact",
-        "same_zone",
-        "same_zone_of_middle",
-        "wrong_place",
-    )
-    found = {name: np.full((len(arms), 2), np.nan) for name in names}
+    found: dict[str, Array] = {}
     moved = free.head.places - signer.person.head
     for side, wanted in free.goals.items():
-        column, poses = _COLUMN[side], free.poses(side, arms)
+        poses = free.poses(side, arms)
         hand = poses.points(wanted.local)
-        found["place_error"][:, column] = np.linalg.norm(hand - wanted.place, axis=1)
-        found["palm_error"][:, column] = angles_between(poses.rotation[:, :, 2], wanted.palm)
-        found["finger_error"][:, column] = angles_between(poses.rotation[:, :, 0], wanted.fingers)
-        found["flexion_error"][:, column] = free.hands[side].error
-        found["contact"][:, column] = wanted.contact
-        places = place_figures(free.body, signer.person, free.meant[side], moved, hand, side)
-        found["same_zone"][:, column] = places.same
-        found["same_zone_of_middle"][:, column] = places.middles_same
-        found["wrong_place"][:, column] = places.wrong
+        figures: dict[str, Array | NDArray[np.bool_]] = {
+            "place_error": np.linalg.norm(hand - wanted.place, axis=1),
+            "palm_error": angles_between(poses.rotation[:, :, 2], wanted.palm),
+            "finger_error": angles_between(poses.rotation[:, :, 0], wanted.fingers),
+            "flexion_error": free.hands[side].error,
+            "contact": wanted.contact,
+            **place_figures(free.body, signer.person, free.meant[side], moved, hand, side),
+        }
+        for name, values in figures.items():
+            found.setdefault(name, np.full((len(arms), 2), np.nan))[:, _COLUMN[side]] = values
     return found

@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from teo_common.arrays import Array
-from teo_sign_capture.tracks.body_axes import filled
-from teo_sign_capture.tracks.skeleton_track import BODY, EAR, EYE, FACE, NOSE, SkeletonTrack
+from teo_sign_capture.tracks.skeleton_track import BODY, EAR, EYE, FACE, NOSE, SkeletonTrack, filled
 
 # Deviation of each keypoint of the head from a rigid head [m]; body's first, then the face's: contour of the
 # jaw, brows, bridge and wings of the nose, eyes, mouth, pupils. Infinite for what is not of the head. Jaw and

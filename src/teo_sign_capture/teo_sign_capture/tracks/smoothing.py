@@ -63,18 +63,11 @@ class Gap:
         part: "body", "left_hand", "right_hand" or "face".
         start: [s].
         end: [s].
-        filled: Whether the motion before and after, and the wrist, say what it was.
     """
 
     part: Part
     start: float
     end: float
-    filled: bool
-
-    @property
-    def duration(self) -> float:
-        """How long it lasts [s]."""
-        return self.end - self.start
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -102,33 +95,25 @@ def smooth_track(track: SkeletonTrack) -> Smoothed:
         keypoints: Keypoints = filled.get(part, getattr(track, part))
         positions = smooth_positions(track.times, keypoints.positions, keypoints.sigma)
         smooth[part] = replace(keypoints, positions=positions)
-        gaps += _find_gaps(track.times, getattr(track, part), positions, part)
+        gaps += _find_gaps(track.times, getattr(track, part).positions, part)
     return Smoothed(
         track=replace(track, **smooth),  # type: ignore[arg-type]  # parts by name
         gaps=tuple(sorted(gaps, key=lambda gap: gap.start)),
     )
 
 
-def _find_gaps(times: Array, raw: Keypoints, smooth: Array, part: Part) -> list[Gap]:
-    """Times in which half or more of the keypoints that a part ever has are lost.
-
-    Args:
-        times: [s]. Shape (n,).
-        raw: As recorded.
-        smooth: Positions in which they may be filled. Shape (n, k, 3).
-        part: Name of the part.
-    """
-    known = seen(raw.positions)
+def _find_gaps(times: Array, positions: Array, part: Part) -> list[Gap]:
+    """Times in which half or more of the keypoints that a part ever has are lost; positions as recorded."""
+    known = seen(positions)
     ever = known.any(axis=0)
     if not ever.any():
-        return [Gap(part=part, start=float(times[0]), end=float(times[-1]), filled=False)]
+        return [Gap(part=part, start=float(times[0]), end=float(times[-1]))]
     lost = known[:, ever].mean(axis=1) < 0.5
     gaps = []
     for first, last in runs(lost):
-        guessed = seen(smooth[first : last + 1])[:, ever].mean(axis=1) >= 0.5
         # From the last image in which it was seen to the next.
         start, end = float(times[max(first - 1, 0)]), float(times[min(last + 1, len(times) - 1)])
-        gaps.append(Gap(part=part, start=start, end=end, filled=bool(guessed.all())))
+        gaps.append(Gap(part=part, start=start, end=end))
     return gaps
 
 

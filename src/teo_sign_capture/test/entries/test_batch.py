@@ -12,9 +12,8 @@ from pathlib import Path
 import pytest
 from made_bags import signing, write_bag
 
-from teo_sign_capture.entries.bag_capture import CaptureJob, Settings
+from teo_sign_capture.entries.bag_capture import CAPTURED, UNCHANGED, CaptureJob, Outcome, Settings, failures
 from teo_sign_capture.entries.batch import find_jobs, read_manifest, run_jobs, workers
-from teo_sign_capture.entries.outcome import CAPTURED, UNCHANGED, Outcome, failures
 from teo_sign_capture.entries.take import Cut
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import Lut

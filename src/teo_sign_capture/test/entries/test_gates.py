@@ -6,26 +6,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
-from made_bags import OUT, REST, signing, write_bag
+from made_bags import OUT, REST, signing
 from made_tracks import lose, make_track, path
-from typer.testing import CliRunner, Result
 
 from teo_description.robot import Robot
-from teo_lut_executor.cli.lut import app
 from teo_sign_capture.entries.gates import RefusedError, accepted_standing, judge, objections
 from teo_sign_capture.entries.sign_entry import Origin, make_sign
 from teo_sign_capture.entries.take import Cut, SignTake, capture_take
-from teo_sign_capture.recordings.skeleton_bag import read_skeletons
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_signs.errors import LutError
-from teo_signs.look_up_table import Lut
-from teo_synthetic_signer import Take as Performance
-from teo_synthetic_signer import TakeOptions
-from teo_synthetic_signer.take.take_files import write_take
 
 GOOD = {
     "lost_percent": 20.0,
@@ -47,10 +39,6 @@ def robot() -> Robot:
 @pytest.fixture(scope="module")
 def take(robot: Robot) -> SignTake:
     return capture_take(robot, signing(rate=15.0))
-
-
-def run(*arguments: str | Path) -> Result:
-    return CliRunner(env={"COLUMNS": "400"}).invoke(app, [str(argument) for argument in arguments])
 
 
 def test_a_sign_at_every_limit_is_taken() -> None:
@@ -171,45 +159,3 @@ def test_a_take_that_is_no_good_is_refused_for_what_is_wrong_with_it(
     with pytest.raises(RefusedError) as caught:
         make_sign(robot, "SIGNO", [capture_take(robot, made())], ORIGIN)
     assert {verdict.code for verdict in objections(caught.value.verdicts)} == codes
-
-
-def test_a_teacher_is_told_what_to_do_and_may_accept(tmp_path: Path) -> None:
-    bag = write_bag(tmp_path / "take.mcap", signing(moves=NO_REST, duration=2.0, rate=15.0))
-    arguments = (
-        "capture",
-        bag,
-        "--gloss",
-        "SIGNO",
-        "--hands",
-        "right",
-        "--lut",
-        tmp_path / "lut",
-        "--no-draw",
-    )
-    refused = run(*arguments)
-    assert refused.exit_code == 1
-    assert refused.output.startswith("no_rest: SIGNO: ")
-    assert "from rest to rest" in refused.output
-    assert not (tmp_path / "lut").exists()
-    assert run(*arguments, "--accept").exit_code == 0
-    provenance = Lut.open(tmp_path / "lut")["SIGNO"].provenance
-    assert provenance.standing == "measured"
-    assert "begins and ends within it" in provenance.notes
-
-
-def test_the_first_example_of_the_guide_passes(robot: Robot, tmp_path: Path) -> None:
-    options = TakeOptions(script="greeting", body="man_average", sensor="d435", rate=15.0)
-    person = Performance(options)
-    frames = (person.truth(index) for index in range(len(person)))
-    assert sum(1 for _ in write_take(frames, tmp_path / "hello", truth_only=True)) == len(person)
-    track = read_skeletons(tmp_path / "hello", topic="/truth/skeletons")
-    sign = make_sign(robot, "SALUDAR", [capture_take(robot, track)], ORIGIN).sign
-    assert sign.provenance.standing == "recorded"
-    assert sign.quality["place_error_p95_mm"] < 120.0
-    assert sign.quality["stretch_times"] < 2.0
-
-
-def test_a_touch_without_a_hold_is_cut_long_enough_to_be_read(robot: Robot) -> None:
-    take = capture_take(robot, signing(moves=[(0.5, 0.9, OUT), (0.9, 1.3, REST)]))
-    sign = make_sign(robot, "SIGNO", [take], ORIGIN).sign
-    assert 0.25 <= sign.duration <= 0.45

@@ -4,8 +4,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from made_bags import OUT, REST, SIGN, signing
@@ -69,7 +67,7 @@ def test_a_cut_outside_the_recording_is_refused(robot: Robot, cut: Cut) -> None:
 def test_a_hand_that_is_lost_shortly_is_filled_in_and_said(robot: Robot) -> None:
     found = capture_take(robot, lose(signing(), "right_hand", 1.4, 1.5))
     (gap,) = found.gaps
-    assert gap.filled
+    assert np.isfinite(found.track.right_hand.positions).all()
     assert gap.start == pytest.approx(1.4, abs=FRAMES)
     assert 0.1 < found.lost < 0.4
 
@@ -120,11 +118,3 @@ def test_hands_can_be_named(robot: Robot) -> None:
     both = capture_take(robot, signing(moves=[(0.5, 1.1, OUT), (1.8, 2.4, REST)]), handedness="both")
     assert any(joint.startswith("FrontalLeft") for joint in both.motion.joints)
     assert np.isfinite(both.motion.place_error).all()
-
-
-def test_half_the_person_is_no_person_but_says_what_is_missing(robot: Robot) -> None:
-    track = lose(signing(), "right_hand", 0.0, 9.0)
-    with pytest.raises(LutError) as error:
-        capture_take(robot, replace(track, source="half.mcap"))
-    assert error.value.code == "hand_lost"
-    assert "half.mcap" in str(error.value)

@@ -14,7 +14,6 @@ from teo_description.robot import Robot
 from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 from teo_sign_capture.entries.take_combination import combine
 from teo_sign_capture.retarget.robot_motion import RobotMotion
-from teo_sign_capture.time_warp import warp
 from teo_signs.errors import LutError
 
 NAMES = ("one", "two", "three", "four", "five")
@@ -79,17 +78,6 @@ def test_one_take_is_taken_as_it_is(robot: Robot) -> None:
     combined = combine(robot, [take], NAMES[:1])
     np.testing.assert_array_equal(combined.positions, take.positions)
     assert combined.used == (0,)
-
-
-def test_warping_finds_the_same_moments_at_another_pace() -> None:
-    first, second = (
-        np.stack([wave(s), np.cos(s), 0.0 * s], axis=1)[:, None]
-        for s in (np.linspace(0, 1, 40), np.linspace(0, 1, 70))
-    )
-    aligned = warp(first, second)
-    assert aligned.distance < 0.05
-    # Frame for frame along the diagonal.
-    assert np.abs(aligned.pairs[:, 0] / 39.0 - aligned.pairs[:, 1] / 69.0).max() < 0.1
 
 
 def test_the_mean_of_takes_is_nearer_to_the_truth_than_any(robot: Robot) -> None:

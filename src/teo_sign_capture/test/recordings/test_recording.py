@@ -14,8 +14,9 @@ from made_bags import messages, signing, write_bag
 from mcap.writer import Writer
 from rosbags.rosbag2 import Reader
 
-from teo_sign_capture.recordings import own_process
-from teo_sign_capture.recordings.recording import digest_of, is_bag, open_recording, retrieve_apart, track_of
+from teo_sign_capture.recordings import keypoint_search
+from teo_sign_capture.recordings.keypoint_search import find_skeletons
+from teo_sign_capture.recordings.recording import digest_of, is_bag, open_recording, track_of
 from teo_sign_capture.recordings.skeleton_bag import write_skeletons
 from teo_signs.errors import LutError
 from teo_synthetic_signer.take.take_files import START
@@ -132,10 +133,10 @@ def test_a_bag_without_depth_is_refused_in_the_retrievers_words(colour_only: Pat
 def test_a_worker_that_may_start_no_process_retrieves_by_itself(
     colour_only: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(own_process, "current_process", lambda: SimpleNamespace(daemon=True))
-    monkeypatch.setattr(own_process, "get_context", lambda method: pytest.fail(f"a process by {method}"))
+    monkeypatch.setattr(keypoint_search, "current_process", lambda: SimpleNamespace(daemon=True))
+    monkeypatch.setattr(keypoint_search, "get_context", lambda method: pytest.fail(f"a process by {method}"))
     with pytest.raises(LutError, match="depth") as error:
-        retrieve_apart(colour_only, tmp_path / "out.mcap")
+        find_skeletons(colour_only, tmp_path / "out.mcap")
     assert error.value.code == "no_depth"
 
 

@@ -151,33 +151,21 @@ def test_a_bag_without_skeletons_says_how_to_make_them():
     assert "/truth/skeletons" in sentence
 
 
-def test_a_bag_in_which_nobody_is_seen_is_refused(store, tmp_path):
-    code, sentence = code_of(write(store, tmp_path / "bag", [(0.0, []), (0.1, [])]))
-    assert code == "no_person"
-    assert "2 frames, got nobody" in sentence
-
-
-def test_people_of_whom_none_is_marked_are_refused(store, tmp_path):
-    bag = write(store, tmp_path / "bag", [(0.0, [skeleton(store, 4, signer=False)])])
-    code, sentence = code_of(bag)
-    assert code == "no_person"
-    assert "--person" in sentence
-
-
-def test_a_topic_without_messages_is_refused(store, tmp_path):
-    assert code_of(write(store, tmp_path / "bag", []))[0] == "no_skeletons"
-
-
-def test_stamps_that_go_back_are_refused(store, tmp_path):
-    frames = [(stamp, [skeleton(store, 1)]) for stamp in (0.0, 0.2, 0.1)]
-    assert code_of(write(store, tmp_path / "bag", frames))[0] == "bad_stamps"
-
-
-def test_keypoints_of_another_layout_are_refused(store, tmp_path):
-    frames = [(0.0, [skeleton(store, 1, sizes=SIZES | {"body": 18})])]
-    code, sentence = code_of(write(store, tmp_path / "bag", frames))
-    assert code == "unreadable_bag"
-    assert "25 keypoints of the body" in sentence
+@pytest.mark.parametrize(
+    ("code", "said", "frames"),
+    [
+        ("no_person", "2 frames, got nobody", [(0.0, []), (0.1, [])]),
+        ("no_person", "--person", [(0.0, [{"signer": False}])]),
+        ("no_skeletons", "messages", []),
+        ("bad_stamps", "later", [(stamp, [{}]) for stamp in (0.0, 0.2, 0.1)]),
+        ("unreadable_bag", "25 keypoints of the body", [(0.0, [{"sizes": SIZES | {"body": 18}}])]),
+    ],
+)
+def test_a_bag_without_a_person_to_follow_is_refused(store, tmp_path, code, said, frames):
+    made = [(stamp, [skeleton(store, 4, **person) for person in people]) for stamp, people in frames]
+    found, sentence = code_of(write(store, tmp_path / "bag", made))
+    assert found == code
+    assert said in sentence
 
 
 @pytest.mark.parametrize("kept", [0, 40, 3000, -20])

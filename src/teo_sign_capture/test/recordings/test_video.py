@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 
 from teo_common.arrays import Array
-from teo_sign_capture.recordings.pose_file import read_pose_file
-from teo_sign_capture.recordings.video import FASTEST, evenly, is_video, pose_file, video_images
-from teo_sign_capture.recordings.webcam import film_webcam
+from teo_sign_capture.recordings.keypoint_search import evenly
+from teo_sign_capture.recordings.pose_file import pose_file, read_pose_file
+from teo_sign_capture.recordings.video import FASTEST, film_webcam, is_video, video_images
 from teo_signs.errors import LutError
 
 WIDTH, HEIGHT = 96, 64

@@ -8,15 +8,13 @@ import numpy as np
 import pytest
 from robot_person import JOINTS, keypoints, track_of
 
-from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
-from teo_sign_capture.retarget.body_map import BodyMap, WorkspaceScaling, body_boxes, on_skin
+from teo_sign_capture.retarget.body_map import BodyMap, body_boxes, on_skin
 from teo_sign_capture.retarget.head_motion import follow_head
-from teo_sign_capture.signing_space.hand_points import MIRROR
-from teo_sign_capture.signing_space.places import find_place
+from teo_sign_capture.signing_space import MIRROR, find_place
 from teo_sign_capture.tracks.head_pose import head_pose
-from teo_sign_capture.tracks.person import measure_person
+from teo_sign_capture.tracks.signer_motion import measure_person
 
 
 @pytest.fixture(scope="module")
@@ -73,6 +71,14 @@ def test_far_from_the_body_lengths_grow_with_the_arms_and_stretched_arms_stay_st
     assert moved[0] == pytest.approx(0.1 * chain.reach / person.arm, rel=0.03)
     aside = body.place(np.array([[0.0, -person.shoulder - person.arm, 0.0]]))[0]
     assert aside[1] == pytest.approx(chain.shoulder[1] - chain.reach, abs=0.01)
+    # Crown, shoulders and waist keep their heights, and hands that hang still hang.
+    shoulders, crown = body.shoulder_height, find_place(robot.humanoid, "head_top").point[2]
+    found = body.place(
+        np.array(
+            [(0.9, 0.0, z) for z in (person.places["head_top"][2], 0.0, -0.7 * person.trunk, -person.arm)]
+        )
+    )[:, 2]
+    assert found == pytest.approx([crown, shoulders, 0.3 * shoulders, shoulders - chain.reach], abs=0.005)
 
 
 def test_what_is_at_the_head_goes_with_it_and_what_is_far_does_not(robot):
@@ -94,49 +100,3 @@ def test_what_is_at_the_head_goes_with_it_and_what_is_far_does_not(robot):
     assert np.degrees(np.arctan2(head.robot_turns[2][1, 0], head.robot_turns[2][0, 0])) == pytest.approx(60.0)
     assert placed[2, 0] == pytest.approx(turned, abs=0.005)
     assert placed[2, 1] == pytest.approx(placed[0, 1], abs=1e-9)
-
-
-# TEO's [m].
-REACH, SHOULDER, HEIGHT = 0.705, 0.347, 0.498
-CROWN = find_place(load_humanoid(), "head_top").point[2] - HEIGHT
-SIZES = [(1.0, 1.0, 1.0), (0.8, 0.5, 0.9), (1.1, 0.6, 1.2)]
-
-
-@pytest.fixture(scope="module", params=SIZES, ids=str)
-def person(request):
-    points = keypoints(Robot.load(), JOINTS, np.zeros((2, len(JOINTS))))
-    return measure_person(track_of(np.arange(2) / 30.0, [part * request.param for part in points]))
-
-
-@pytest.fixture
-def far(person):
-    return WorkspaceScaling(person, REACH, SHOULDER, HEIGHT, CROWN)
-
-
-def heights(far, values):
-    return far(np.stack([np.zeros(len(values)), np.zeros(len(values)), values], axis=1))[:, 2]
-
-
-def test_crown_shoulders_and_waist_keep_their_heights_and_hanging_hands_hang(far, person):
-    found = heights(far, [person.places["head_top"][2], 0.0, -0.7 * person.trunk, -person.arm])
-    assert found == pytest.approx([CROWN, 0.0, -0.7 * HEIGHT, -REACH], abs=1e-9)
-
-
-def test_arms_stretched_out_stay_stretched_out(far, person):
-    aside = person.shoulder + person.arm
-    found = far(np.array([[person.arm, 0.0, 0.0], [0.0, -aside, 0.0], [0.0, aside, 0.0]]))
-    assert found[0, 0] == pytest.approx(REACH)
-    assert found[1:, 1] == pytest.approx([-SHOULDER - REACH, SHOULDER + REACH])
-
-
-def test_higher_farther_and_more_aside_stay_so(far):
-    steps = np.linspace(-1.5, 1.5, 301)
-    for axis in range(3):
-        moved = far(steps[:, None] * np.eye(3)[axis])[:, axis]
-        assert (np.diff(moved) > 0.0).all()
-
-
-def test_the_middle_stays_the_middle_and_both_sides_are_alike(far):
-    points = np.random.default_rng(0).uniform(-0.6, 0.6, (50, 3))
-    assert far(points * MIRROR) == pytest.approx(far(points) * MIRROR)
-    assert far(points * (1.0, 0.0, 1.0))[:, 1] == pytest.approx(np.zeros(50))

@@ -11,8 +11,8 @@ from teo_description.hand_geometry import HandPoints, HandTable
 from teo_description.robot import Robot
 from teo_names import RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_sign_capture.retarget.hand_motion import follow_hand
-from teo_sign_capture.tracks.hand_shape import finger_bends, in_palm, straight_bends
 from teo_sign_capture.tracks.signer_motion import signer_arm
+from teo_skeleton_retriever.lifting.hand_axes import finger_bends, in_palm, straight_bends
 
 JOINTS = RIGHT_ARM + RIGHT_HAND
 STRAIGHT = np.zeros((4, 3))

@@ -17,8 +17,7 @@ from teo_names import HEAD, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, joint_li
 from teo_sign_capture.recordings.skeleton_bag import read_skeletons
 from teo_sign_capture.retarget.arm_kinematics import mirrored
 from teo_sign_capture.retarget.robot_motion import retarget_motion
-from teo_sign_capture.tracks.person import measure_person
-from teo_sign_capture.tracks.signer_motion import signer_motion
+from teo_sign_capture.tracks.signer_motion import measure_person, signer_motion
 from teo_sign_capture.tracks.skeleton_track import Keypoints
 from teo_signs.errors import LutError
 

@@ -11,7 +11,7 @@ from teo_description.robot import Robot
 from teo_names import RIGHT_ARM
 from teo_sign_capture.retarget.head_motion import follow_head, follow_trunk
 from teo_sign_capture.tracks.head_pose import head_pose, head_shape
-from teo_sign_capture.tracks.person import measure_person
+from teo_sign_capture.tracks.signer_motion import measure_person
 
 FRAMES = 31
 TIMES = np.arange(FRAMES) / 30.0

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from made_tracks import HANGING, Move, lose, make_track, path
 from scipy.ndimage import gaussian_filter1d
 
-from teo_sign_capture.signing_space.hand_points import MIRROR
+from teo_sign_capture.signing_space import MIRROR
 from teo_sign_capture.tracks.segmentation import SignSpan, find_signs, the_sign
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_sign_capture.tracks.smoothing import smooth_track

@@ -4,9 +4,124 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from robot_person import part
+from scipy.spatial.transform import Rotation
 
-from teo_sign_capture.tracks.skeleton_track import Keypoints, SkeletonTrack
+from teo_sign_capture.tracks.skeleton_track import Keypoints, SkeletonTrack, in_body_axes
 from teo_signs.errors import LutError
+
+TIMES = np.arange(60) / 30.0
+UP = (0.0, 0.0, 1.0)
+HIPS = np.array([0.0, 0.0, -0.5])
+
+
+def person(frames=60):
+    """Shoulders, hips and a right hand that moves, in the axes of the body itself [m]."""
+    body = np.full((frames, 25, 3), np.nan)
+    body[:, 2], body[:, 5] = (0.0, -0.18, 0.0), (0.0, 0.18, 0.0)
+    body[:, 9], body[:, 12] = (0.0, -0.12, -0.5), (0.0, 0.12, -0.5)
+    body[:, 8] = (0.0, 0.0, -0.5)
+    hand = np.tile((0.3, -0.1, 0.05), (frames, 21, 1))
+    hand[..., 2] += 0.1 * np.sin(2.0 * np.pi * 2.0 * np.arange(frames) / 30.0)[:, None]
+    return body, hand
+
+
+def track_of(body, hand, up=UP):
+    frames = len(body)
+    return in_body_axes(
+        times=TIMES[:frames],
+        body=part(body),
+        left_hand=Keypoints.lost(frames, 21),
+        right_hand=part(hand),
+        face=Keypoints.lost(frames, 70),
+        source="clip",
+        recorded=None,
+        up=up,
+    )
+
+
+@settings(max_examples=20, deadline=None)
+@given(
+    turn=st.tuples(*[st.floats(-3.0, 3.0)] * 3),
+    shift=st.tuples(*[st.floats(-4.0, 4.0)] * 3),
+)
+def test_where_a_person_stands_and_faces_changes_nothing(turn, shift):
+    body, hand = person()
+    rotation = Rotation.from_rotvec(turn)
+    moved = [(rotation.apply(points.reshape(-1, 3)) + shift).reshape(points.shape) for points in (body, hand)]
+    assert track_of(*moved).right_hand.positions == pytest.approx(hand, abs=1e-9)
+
+
+def test_a_person_who_sways_does_not_make_the_hands_sway():
+    body, hand = person()
+    angle = np.radians(4.0) * np.sin(2.0 * np.pi * 0.4 * TIMES)
+    sway = Rotation.from_euler("x", angle[:, None])
+    moved = []
+    for points in (body, hand):
+        about_hips = points - HIPS
+        turned = np.einsum("tij,tkj->tki", sway.as_matrix(), about_hips) + HIPS
+        moved.append(turned + np.stack([0.0 * TIMES, 0.02 * np.sin(TIMES), 0.0 * TIMES], axis=1)[:, None])
+    track = track_of(*moved)
+    inside = slice(10, -10)  # at the ends a Gaussian sees one side
+    assert track.right_hand.positions[inside] == pytest.approx(hand[inside], abs=0.004)
+    # The trunk's own sway is not lost, but told.
+    assert np.ptp(track.trunk[:, 0]) == pytest.approx(np.ptp(angle), rel=0.15)
+
+
+def test_an_arm_that_lifts_its_shoulder_does_not_tilt_the_axes():
+    body, hand = person()
+    body[:, 2, 2] += 0.05
+    track = track_of(body, hand)
+    # Half of the lift is in the origin; a tilt of the line of the shoulders would move the hand by 4 cm more.
+    assert track.right_hand.positions == pytest.approx(hand - (0.0, 0.0, 0.025), abs=0.003)
+
+
+def test_shoulders_that_tremble_do_not_make_the_hands_tremble():
+    body, hand = person()
+    noisy = body.copy()
+    noisy[:, (2, 5)] += np.random.default_rng(0).normal(0.0, 0.01, (60, 2, 3))
+    assert np.std(track_of(noisy, hand).right_hand.positions - hand) < 0.004
+
+
+def test_hips_that_are_not_seen_are_replaced_by_up():
+    body, hand = person()
+    body[:, (8, 9, 12)] = np.nan
+    assert track_of(body, hand).right_hand.positions == pytest.approx(hand, abs=1e-9)
+
+
+def test_a_gap_of_the_shoulders_is_bridged_and_a_lost_hand_stays_lost():
+    body, hand = person()
+    body[20:30, 2] = np.nan
+    hand[40] = np.nan
+    track = track_of(body, hand)
+    assert np.isfinite(track.right_hand.positions[20:30]).all()
+    assert np.isnan(track.right_hand.positions[40]).all()
+
+
+@pytest.mark.parametrize("lost", [(2,), (5,), (2, 5)])
+def test_a_person_whose_shoulders_are_never_seen_is_refused(lost):
+    body, hand = person()
+    body[:, lost] = np.nan
+    with pytest.raises(LutError, match=r"clip: .*shoulders") as error:
+        track_of(body, hand)
+    assert error.value.code == "no_torso"
+
+
+def test_shoulders_along_the_trunk_are_no_person():
+    body, hand = person()
+    body[:, 2], body[:, 5] = (0.0, 0.0, -0.1), (0.0, 0.0, 0.1)
+    with pytest.raises(LutError) as error:
+        track_of(body, hand)
+    assert error.value.code == "no_torso"
+
+
+def test_a_single_frame_is_a_track():
+    body, hand = person(1)
+    track = track_of(body, hand)
+    assert track.right_hand.positions == pytest.approx(hand)
+    assert track.trunk == pytest.approx(np.zeros((1, 3)), abs=1e-9)
 
 
 def track(times, **changes):

@@ -16,7 +16,7 @@ from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
 from teo_common.arrays import Array
-from teo_sign_capture.tracks.hand_shape import INDEX, KNUCKLES, MIDDLE, THUMB, WRIST, palm_axes
+from teo_skeleton_retriever.lifting.hand_axes import INDEX, KNUCKLES, MIDDLE, THUMB, WRIST, palm_axes
 
 # Deviation of a landmark across the view and in depth [pixel]; the residual of the fits is 2.3 and 8.
 _ACROSS, _DEPTH = 2.5, 10.0

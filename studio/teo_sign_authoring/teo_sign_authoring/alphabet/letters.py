@@ -38,8 +38,7 @@ from teo_sign_authoring.alphabet.spelling_arm import (
 from teo_sign_authoring.alphabet.spelling_hand import HandFit, fit_robot_hand
 from teo_sign_capture.retarget.hand_motion import axis_shares
 from teo_sign_capture.retarget.knots import clearance_mm, limit_margin_deg, reduce_to_knots
-from teo_sign_capture.signing_space.hand_points import finger_rows
-from teo_sign_capture.signing_space.places import find_place
+from teo_sign_capture.signing_space import find_place, finger_rows
 from teo_sign_languages import Language, LetterClips
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Provenance

@@ -30,7 +30,7 @@ from teo_description.hand_geometry import HandPoints, hand_table, segment_distan
 from teo_description.robot import Robot
 from teo_sign_authoring.alphabet.hand_fit import HandPose, finger_directions
 from teo_sign_capture.retarget.hand_motion import axis_shares, thumb_contacts
-from teo_sign_capture.signing_space.hand_points import finger_rows
+from teo_sign_capture.signing_space import finger_rows
 
 # Weights of the bending plane and of the viewer's plane; chosen by eye on pictures of the thirty letters.
 _SHAPE, _SEEN = 0.6, 1.0

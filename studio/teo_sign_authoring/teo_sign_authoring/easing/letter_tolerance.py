@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from teo_common.arrays import Array
+from teo_common.dynamic_programming import warp
 from teo_description.hand_geometry import HandGeometry
 from teo_description.robot import Robot
 from teo_sign_authoring.alphabet.letter_likeness import features
@@ -25,7 +26,6 @@ from teo_sign_authoring.alphabet.spelling_arm import spelling_bounds
 from teo_sign_authoring.easing.linear_program import BEND, DIRECTIONS, FOLDED, FOLDED_BEND, TURN
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.knots import least_clearance
-from teo_sign_capture.time_warp import warp
 from teo_signs.sign import Sign
 
 # [m] A letter has no place of its own; it stays within half a hand's length of where the signer made it.

@@ -18,8 +18,8 @@ from teo_common.arrays import Array
 from teo_description.hand_geometry import HandTable, hand_table
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.hand_motion import finger_flexions, follow_thumb
-from teo_sign_capture.signing_space.hand_points import KNUCKLES, finger_rows
-from teo_sign_capture.signing_space.places import WRITTEN_FOR
+from teo_sign_capture.signing_space import WRITTEN_FOR, finger_rows
+from teo_skeleton_retriever.lifting.hand_axes import KNUCKLES
 
 # [deg] Abductor, thumb, index, middle, ring, little finger. 7 is straight, 85 fully bent; abductor 0 has the
 # thumb at the hand's side, 90 opposite the palm; thumb -90 stands out, 90 is folded. Thumbs over folded

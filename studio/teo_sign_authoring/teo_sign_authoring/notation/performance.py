@@ -5,7 +5,7 @@
 The way there and back is the person's: hands start hanging and hang in the end, so that the sign can be found
 between. What the face does is in words that no facial action is known for; it is left out.
 
-Places on the body keep their names, so far as TEO and the person both have names (`signing_space.places`);
+Places on the body keep their names, so far as TEO and the person both have names (`signing_space`);
 those in the air are given from the part of the body that they are before. Arms, hands and heads of person and
 robot are of one size, so centimetres are centimetres; but TEO's shoulders are nearly twice as far apart, so
 what it does farther aside than its hands are long is nearer to the middle on a person. A person's finger
@@ -24,7 +24,7 @@ import yaml
 from teo_common.arrays import Array
 from teo_sign_authoring.notation.score_schema import Circle, HandScore, Part, Score, Wiggle, flattened
 from teo_sign_authoring.notation.targets import circle_offsets, fingers_across
-from teo_sign_capture.signing_space.places import (
+from teo_sign_capture.signing_space import (
     OTHER_HAND,
     direction,
     displacement,

@@ -11,7 +11,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validat
 
 from teo_description.humanoid import Side
 from teo_sign_authoring.notation.handshapes import written_shape
-from teo_sign_capture.signing_space.places import OTHER_HAND, direction, displacement, split_place
+from teo_sign_capture.signing_space import OTHER_HAND, direction, displacement, split_place
 from teo_signs.sign_schema import SOURCE_STANDING_MEANING, Gloss, SourceStanding, Text
 
 # Part of the hand that is at the place.

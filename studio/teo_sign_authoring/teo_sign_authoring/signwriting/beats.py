@@ -30,8 +30,8 @@ from teo_sign_authoring.signwriting.movement import (
     Turning,
 )
 from teo_sign_authoring.signwriting.written_sign import UnreadableError
-from teo_sign_capture.signing_space.places import OTHER_HAND as OTHER_HAND_NAMES
-from teo_sign_capture.signing_space.places import split_place, written_place
+from teo_sign_capture.signing_space import OTHER_HAND as OTHER_HAND_NAMES
+from teo_sign_capture.signing_space import split_place, written_place
 
 # [cm] A hand that only touches comes from so far and goes back as far between two touches.
 _APPROACH = 6.0

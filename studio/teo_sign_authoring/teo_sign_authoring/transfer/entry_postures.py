@@ -19,8 +19,7 @@ from teo_sign_authoring.notation.handshapes import follow_robot_hand
 from teo_sign_authoring.notation.score_schema import Hands
 from teo_sign_authoring.notation.targets import HandTarget, Posture
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, mirrored, mirrored_hand
-from teo_sign_capture.signing_space.hand_points import MIRROR
-from teo_sign_capture.signing_space.places import find_place
+from teo_sign_capture.signing_space import MIRROR, find_place
 from teo_signs.sign import Sign
 
 # [m] A finger tip nearer than this to a place of the body shows it.

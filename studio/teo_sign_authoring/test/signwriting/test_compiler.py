@@ -16,7 +16,7 @@ from teo_sign_authoring.notation.score_schema import Step, flattened
 from teo_sign_authoring.signwriting.compiler import Compilation, compile_fsw
 from teo_sign_authoring.signwriting.dictionary_import import score_text
 from teo_sign_authoring.signwriting.written_sign import UnreadableError
-from teo_sign_capture.signing_space.places import split_place
+from teo_sign_capture.signing_space import split_place
 from teo_signs.errors import LutError
 
 # SignPuddle LSE dictionary, single strings.

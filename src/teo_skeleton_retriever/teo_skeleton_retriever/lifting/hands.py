@@ -14,20 +14,16 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from teo_common.arrays import Array
-from teo_sign_capture.lifting.depth_smoothing import smooth_depth
-from teo_sign_capture.recordings.pose_file import Points
-from teo_sign_capture.signing_space.hand_points import MIRROR
-from teo_sign_capture.tracks.hand_shape import INDEX, KNUCKLES, LITTLE, PALM, THUMB, WRIST, palm_axes
+from teo_skeleton_retriever.arrays import BoolArray, FloatArray
+from teo_skeleton_retriever.depth.hand_shape import CHILD, PARENT, turned
+from teo_skeleton_retriever.lifting.clip import Points
+from teo_skeleton_retriever.lifting.depth_smoothing import smooth_depth
+from teo_skeleton_retriever.lifting.hand_axes import INDEX, LITTLE, PALM, THUMB, WRIST, palm_axes
 
-# Points that a bone joins: of thumb, index, middle, ring and little finger, from the wrist out.
-BONES = tuple(
-    (WRIST if bone == 0 else first + bone - 1, first + bone)
-    for first in (THUMB, *KNUCKLES)
-    for bone in range(4)
-)
+_BONES = len(CHILD)
+# Makes a left hand a right one.
+_MIRROR = np.array([1.0, -1.0, 1.0])
 
 # [m] Lengths of an adult's bones. Metacarpals and phalanges: Buryanov and Kotiuk, "Proportions of Hand
 # Segments", Int. J. Morphol. 28(3), 2010; the way from the wrist to a knuckle is that of the metacarpal and
@@ -59,7 +55,7 @@ _LEAST_TURN = 0.02
 _LENGTH_SHARE = 0.08
 # Deviation of the detector's guess of a depth as a share of the bone's length: of the palm's bones, which a
 # detector sees whole, and of fingers, which hide each other. Shape (20,).
-_GUESS_SHARE = np.where(np.arange(len(BONES)) % 4 == 0, 0.15, 0.3)
+_GUESS_SHARE = np.where(np.arange(_BONES) % 4 == 0, 0.15, 0.3)
 # Where there is no guess, a hand goes on as its forearm, give or take this share of a bone's length; bones of
 # fingers are bent out of it to the palm's side by that share.
 _NO_GUESS_SHARE, _BENT = 0.6, 0.4
@@ -74,9 +70,9 @@ _POINT_SIGMA = 0.004
 class LiftedHand(NamedTuple):
     """A hand's points relative to its wrist, forward, left and up."""
 
-    points: Array
+    points: FloatArray
     """[m]; NaN where not seen. Shape (T, 21, 3)."""
-    sigma: Array
+    sigma: FloatArray
     """Standard deviation, root mean over the axes [m]. Shape (T, 21)."""
 
 
@@ -85,7 +81,7 @@ def has_depth(hand: Points) -> bool:
     return bool(np.isfinite(hand.places[..., 0]).any())
 
 
-def lift_hand(hand: Points, *, scale: float, period: float, right: bool, forearm: Array) -> LiftedHand:
+def lift_hand(hand: Points, *, scale: float, period: float, right: bool, forearm: FloatArray) -> LiftedHand:
     """Find the depth of a hand's points.
 
     Args:
@@ -96,22 +92,22 @@ def lift_hand(hand: Points, *, scale: float, period: float, right: bool, forearm
         forearm: How far its forearm comes forward for each of its lengths, where the detector guesses no
             depth; may be NaN where it does. Shape (T,).
     """
-    seen: NDArray[np.bool_] = np.asarray(hand.seen.all(axis=1))
+    seen: BoolArray = np.asarray(hand.seen.all(axis=1))
     points = np.full((*hand.seen.shape, 3), np.nan)
     sigma = np.full(hand.seen.shape, np.nan)
     if not seen.any():
         return LiftedHand(points, sigma)
     # A left hand is lifted as the right hand that its mirror image is.
-    places = hand.places[seen] * (1.0 if right else MIRROR)
+    places = hand.places[seen] * (1.0 if right else _MIRROR)
     places = places - places[:, WRIST, None]
     lengths = _bone_lengths(places, scale)
     guess = _guess(places, scale)
     if guess is None:
-        expected, share = _expected(places, forearm[seen]) * lengths, np.full(len(BONES), _NO_GUESS_SHARE)
+        expected, share = _expected(places, forearm[seen]) * lengths, np.full(_BONES, _NO_GUESS_SHARE)
     else:
-        expected, share = _along(guess), _GUESS_SHARE
+        expected, share = _bones(guess), _GUESS_SHARE
     depths, bone_sigma = _bone_depths(scale * places[..., 1:], expected, share * lengths, lengths)
-    every = np.full((len(seen), len(BONES)), np.nan)
+    every = np.full((len(seen), _BONES), np.nan)
     every[seen] = depths
     sigmas = np.full_like(every, np.nan)
     sigmas[seen] = bone_sigma
@@ -119,27 +115,26 @@ def lift_hand(hand: Points, *, scale: float, period: float, right: bool, forearm
     lifted = np.zeros_like(places)
     lifted[..., 1:] = scale * places[..., 1:]
     spread = np.zeros(lifted.shape[:2])
-    for bone, (first, second) in enumerate(BONES):
+    for bone, (first, second) in enumerate(zip(PARENT, CHILD, strict=True)):
         lifted[:, second, 0] = lifted[:, first, 0] + np.clip(depths[:, bone], -lengths[bone], lengths[bone])
         spread[:, second] = np.hypot(spread[:, first], bone_sigma[:, bone])
     lifted = _with_rigid_palm(lifted)
-    points[seen] = lifted * (1.0 if right else MIRROR)
+    points[seen] = lifted * (1.0 if right else _MIRROR)
     sigma[seen] = np.sqrt((2.0 * _POINT_SIGMA**2 + spread**2) / 3.0)
     return LiftedHand(points, sigma)
 
 
-def _bone_lengths(places: Array, scale: float) -> Array:
+def _bone_lengths(places: FloatArray, scale: float) -> FloatArray:
     """[m] Shape (20,)."""
-    across = np.stack([places[:, second, 1:] - places[:, first, 1:] for first, second in BONES], axis=1)
-    longest = scale * np.percentile(np.linalg.norm(across, axis=2), _PERCENTILE, axis=0)
+    longest = scale * np.percentile(np.linalg.norm(_bones(places)[..., 1:], axis=2), _PERCENTILE, axis=0)
     # Half of the bones at least lay across the view; those say how large the hand is.
     size = float(np.clip(np.percentile(longest / _BONE_LENGTHS, 60.0), *_SIZE))
     usual = size * _BONE_LENGTHS
-    lengths: Array = np.clip(longest, _LEAST_SHARE * usual, _GREATEST_SHARE * usual)
+    lengths: FloatArray = np.clip(longest, _LEAST_SHARE * usual, _GREATEST_SHARE * usual)
     return lengths
 
 
-def _guess(places: Array, scale: float) -> Array | None:
+def _guess(places: FloatArray, scale: float) -> FloatArray | None:
     """The detector's depths in metres, in the unit in which bones keep their lengths best. Shape (T, 21).
 
     None if it gives no depth, or one with which the lengths are no more even than without.
@@ -147,7 +142,7 @@ def _guess(places: Array, scale: float) -> Array | None:
     depths = places[..., 0]
     if not np.isfinite(depths).all() or np.ptp(depths) == 0.0:
         return None
-    bones = np.stack([places[:, second] - places[:, first] for first, second in BONES], axis=1)
+    bones = _bones(places)
     across, along = (bones[..., 1:] ** 2).sum(axis=2), bones[..., 0] ** 2
 
     def unevenness(unit: float) -> float:
@@ -161,18 +156,17 @@ def _guess(places: Array, scale: float) -> Array | None:
     return scale * float(_SCALES[best]) * depths
 
 
-def _along(depths: Array) -> Array:
-    """How far each bone's end is in front of its beginning. Shape (T, 20)."""
-    return np.stack([depths[:, second] - depths[:, first] for first, second in BONES], axis=1)
+def _bones(points: FloatArray) -> FloatArray:
+    """The way from each bone's beginning to its end. Shapes (T, 21, ...) and (T, 20, ...)."""
+    ways: FloatArray = points[:, CHILD] - points[:, PARENT]
+    return ways
 
 
 def _bone_depths(
-    across: Array, expected: Array, expected_sigma: Array, lengths: Array
-) -> tuple[Array, Array]:
+    across: FloatArray, expected: FloatArray, expected_sigma: FloatArray, lengths: FloatArray
+) -> tuple[FloatArray, FloatArray]:
     """How far each bone's end is in front of its beginning, and how sure that is [m]. Shapes (T, 20)."""
-    seen = np.stack(
-        [np.linalg.norm(across[:, second] - across[:, first], axis=1) for first, second in BONES], axis=1
-    )
+    seen = np.linalg.norm(_bones(across), axis=2)
     tried = _STEPS * lengths[:, None]  # (20, steps)
     long = np.hypot(seen[..., None], tried) - lengths[:, None]
     cost = (long / (_LENGTH_SHARE * lengths[:, None])) ** 2
@@ -184,7 +178,7 @@ def _bone_depths(
     return best, np.sqrt(around) + _POINT_SIGMA
 
 
-def _expected(places: Array, forearm: Array) -> Array:
+def _expected(places: FloatArray, forearm: FloatArray) -> FloatArray:
     """How far each bone comes forward where nobody guessed, for each of its lengths. Shape (T, 20).
 
     A palm that is seen has fingers that bend towards the viewer, a back of a hand has them bend away.
@@ -193,12 +187,12 @@ def _expected(places: Array, forearm: Array) -> Array:
     index, little = across[:, INDEX] - across[:, WRIST], across[:, LITTLE] - across[:, WRIST]
     palm_seen = index[:, 0] * little[:, 1] - index[:, 1] * little[:, 0] > 0.0
     bend = np.where(palm_seen, _BENT, -_BENT)
-    of_finger = np.arange(len(BONES)) % 4 > 0
+    of_finger = np.arange(_BONES) % 4 > 0
     forward = np.where(np.isfinite(forearm), forearm, 0.0)
     return np.asarray(np.clip(forward[:, None] + bend[:, None] * of_finger, -1.0, 1.0))
 
 
-def _with_rigid_palm(points: Array) -> Array:
+def _with_rigid_palm(points: FloatArray) -> FloatArray:
     """Lay one palm into all frames; the fingers go with their knuckles."""
     palm = list(PALM)
     axes = palm_axes(points)
@@ -206,10 +200,8 @@ def _with_rigid_palm(points: Array) -> Array:
     shape = np.median(local, axis=0)
     shape = shape - shape.mean(axis=0)
     middle = points[:, palm].mean(axis=1, keepdims=True)
-    u, _, vt = np.linalg.svd(np.einsum("tki,kj->tij", points[:, palm] - middle, shape))
-    sign = np.linalg.det(u @ vt)
-    u[:, :, 2] *= sign[:, None]
-    laid = np.einsum("tij,kj->tki", u @ vt, shape) + middle
+    onto = points[:, palm] - middle
+    laid = turned(np.broadcast_to(shape, onto.shape), onto, np.ones(onto.shape[:2])) + middle
     moved = points.copy()
     for at, point in enumerate(palm):
         away = laid[:, at] - points[:, point]
@@ -217,5 +209,5 @@ def _with_rigid_palm(points: Array) -> Array:
         moved[:, point:last] += away[:, None]
     # The thumb's first joint is of the palm too, but moves in it: it goes with the wrist.
     moved[:, THUMB : THUMB + 4] += (laid[:, 0] - points[:, WRIST])[:, None]
-    rigid: Array = moved - moved[:, WRIST, None]
+    rigid: FloatArray = moved - moved[:, WRIST, None]
     return rigid

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""From a person's points in a picture to a track of keypoints in space.
+"""From a person's points in a picture to keypoints in space.
 
 The person is taken as facing the camera: what is left and up is seen, what is forward follows from the
 lengths of limbs (`lifting.arms`), of a hand's bones (`lifting.hands`) and from the shape of a head
@@ -11,31 +11,21 @@ near the camera is.
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from teo_common.arrays import Array
-from teo_sign_capture.lifting.arms import BodyMeasure, lift_arm, measure_body
-from teo_sign_capture.lifting.hands import LiftedHand, has_depth, lift_hand
-from teo_sign_capture.lifting.head import POINTS, lift_head
-from teo_sign_capture.recordings.pose_file import Points, PoseClip
-from teo_sign_capture.tracks.body_axes import in_body_axes
-from teo_sign_capture.tracks.hand_shape import MIDDLE, RING, WRIST
-from teo_sign_capture.tracks.skeleton_track import (
-    ELBOW,
-    FACE,
-    HIP,
-    MID_HIP,
-    NECK,
-    SHOULDER,
-    Keypoints,
-    SkeletonTrack,
-)
-from teo_sign_capture.tracks.skeleton_track import WRIST as BODY_WRIST
+from teo_skeleton_retriever.arrays import FloatArray
+from teo_skeleton_retriever.layouts.person_layout import BODY, HANDS, ROW, N
+from teo_skeleton_retriever.layouts.skeleton_3d import KeypointStatus
+from teo_skeleton_retriever.lifting.arms import BodyMeasure, lift_arm, measure_body
+from teo_skeleton_retriever.lifting.clip import ELBOW, HIP, SHOULDER, SIDES, WRIST, Points, PoseClip
+from teo_skeleton_retriever.lifting.hand_axes import MIDDLE, RING
+from teo_skeleton_retriever.lifting.hand_axes import WRIST as HAND_WRIST
+from teo_skeleton_retriever.lifting.hands import LiftedHand, has_depth, lift_hand
+from teo_skeleton_retriever.lifting.head import POINTS, lift_head
 
-# `Keypoint3D.STATUS_*`: seen, its depth follows from limb lengths; or not known.
-_OPTIMISED, _LOST = 3, 0
-_SIDES = ("right", "left")
 # [m] Standard deviation of shoulders and hips along the view: that of a trunk that is turned by 15 deg.
 _TRUNK_SIGMA = 0.04
 # [m] From the camera to the shoulders: what is nearer is shown larger about them. Nothing in the points tells
@@ -45,55 +35,63 @@ _CAMERA = 2.0
 _ACROSS_SIGMA = 0.01
 
 
-def lift_clip(clip: PoseClip, *, recorded: str | None = None) -> SkeletonTrack:
+class LiftedPerson(NamedTuple):
+    """A person in space over time, all keypoints as in `layouts.person_layout`; faces are not lifted.
+
+    Attributes:
+        positions: Forward, left and up from between the shoulders [m]; NaN where not known. Shape (T, N, 3).
+        sigma: Standard deviation, root mean over the axes [m]; NaN where not known. Shape (T, N).
+        confidence: Of the detector, 0 to 1; 0 where not known. Shape (T, N).
+        status: `KeypointStatus`: optimised, or lost. Shape (T, N).
+    """
+
+    positions: FloatArray
+    sigma: FloatArray
+    confidence: FloatArray
+    status: NDArray[np.uint8]
+
+
+def lift_clip(clip: PoseClip) -> LiftedPerson:
     """Lift a clip.
 
     Args:
         clip: A person who faces the viewer, one shoulder and one hand seen at least in some frames.
-        recorded: Day of the recording, YYYY-MM-DD; None if not known.
-
-    Raises:
-        LutError: "no_torso", see `in_body_axes`.
     """
     # Limbs that come towards the camera look longer than they are, and so less foreshortened: what a first
     # lift finds to be near is drawn in and lifted anew. More lifts would trust depths beyond what they tell:
     # hands that hang or touch come off the body.
-    lifted = _lift_from_afar(_drawn_in(clip, _lift_from_afar(clip)))
-    return in_body_axes(
-        times=np.arange(len(clip.body.places), dtype=np.float64) / clip.rate,
-        **lifted,
-        face=Keypoints.lost(len(clip.body.places), FACE),
-        source=clip.source,
-        recorded=recorded,
-        up=(0.0, 0.0, 1.0),
-    )
+    return _lift_from_afar(_drawn_in(clip, _lift_from_afar(clip).positions))
 
 
-def _drawn_in(clip: PoseClip, lifted: dict[str, Keypoints]) -> PoseClip:
+def _drawn_in(clip: PoseClip, lifted: FloatArray) -> PoseClip:
     """A clip as from far away: points that are nearer to the camera than the shoulders look farther out."""
     middle = _between_shoulders(clip)[:, None]
 
-    def part(name: str) -> Points:
-        points: Points = getattr(clip, name)
-        forward = np.nan_to_num(lifted[name].positions[..., :1])
+    def part(points: Points, rows: slice) -> Points:
+        forward = np.nan_to_num(lifted[:, rows, :1])
         places = points.places.copy()
         places[..., 1:] = middle + (places[..., 1:] - middle) * (1.0 - forward / _CAMERA)
         return replace(points, places=places)
 
-    return replace(clip, body=part("body"), left_hand=part("left_hand"), right_hand=part("right_hand"))
+    return replace(
+        clip,
+        body=part(clip.body, BODY),
+        left_hand=part(clip.left_hand, HANDS["L"]),
+        right_hand=part(clip.right_hand, HANDS["R"]),
+    )
 
 
-def _lift_from_afar(clip: PoseClip) -> dict[str, Keypoints]:
-    """Body and hands of a clip in which all of a person has one scale, from between the shoulders [m]."""
+def _lift_from_afar(clip: PoseClip) -> LiftedPerson:
+    """Lift a clip in which all of a person has one scale."""
     measure = measure_body(clip.body)
     places = measure.scale * clip.body.places
     places[..., 0] = np.nan
     sigma = np.full((*places.shape[:2], 2), np.nan)
     # Hands are found finer than wrists of bodies.
-    for side in _SIDES:
-        wrists = measure.scale * clip.hand(side).places[:, WRIST, 1:]
+    for side in SIDES:
+        wrists = measure.scale * clip.hand(side).places[:, HAND_WRIST, 1:]
         seen = np.isfinite(wrists).all(axis=1)
-        places[seen, BODY_WRIST[side], 1:] = wrists[seen]
+        places[seen, WRIST[side], 1:] = wrists[seen]
     places[..., 1:] -= measure.scale * _between_shoulders(clip)[:, None]
     for point in (*SHOULDER.values(), *HIP.values()):
         known = np.isfinite(places[:, point, 1])
@@ -102,29 +100,47 @@ def _lift_from_afar(clip: PoseClip) -> dict[str, Keypoints]:
     depths, head_sigma = lift_head(places[:, POINTS, 1:])
     places[:, POINTS, 0] = np.where(np.isfinite(places[:, POINTS, 1]), depths, np.nan)
     sigma[:, POINTS] = np.stack([np.full_like(head_sigma, _ACROSS_SIGMA), head_sigma], axis=-1)
-    hands = {side: _lift_side(clip, side, places, sigma, measure) for side in _SIDES}
-    for point, pair in ((NECK, SHOULDER), (MID_HIP, HIP)):
-        places[:, point] = places[:, list(pair.values())].mean(axis=1)
-        sigma[:, point] = sigma[:, list(pair.values())].mean(axis=1)
-    return {
-        "body": _keypoints(places, _mean(sigma), _body_confidence(clip)),
-        "left_hand": _hand(clip, "left", places, sigma, hands["left"]),
-        "right_hand": _hand(clip, "right", places, sigma, hands["right"]),
-    }
+    hands = {side: _lift_side(clip, side, places, sigma, measure) for side in SIDES}
+    confidence = clip.body.confidence.copy()
+    for point, pair in ((ROW["Neck"], SHOULDER), (ROW["MidHip"], HIP)):
+        rows = list(pair.values())
+        places[:, point], sigma[:, point] = places[:, rows].mean(axis=1), sigma[:, rows].mean(axis=1)
+        confidence[:, point] = confidence[:, rows].min(axis=1)
+    frames = len(places)
+    whole, spread, seen_as = (
+        np.full((frames, N, 3), np.nan),
+        np.full((frames, N), np.nan),
+        np.zeros((frames, N)),
+    )
+    whole[:, BODY], spread[:, BODY], seen_as[:, BODY] = places, _mean(sigma), confidence
+    for side, hand in hands.items():
+        rows_of_hand, wrist = HANDS[side[0].upper()], WRIST[side]
+        whole[:, rows_of_hand] = hand.points + places[:, wrist, None]
+        spread[:, rows_of_hand] = np.hypot(hand.sigma, _mean(sigma[:, wrist, None]))
+        seen_as[:, rows_of_hand] = clip.hand(side).confidence
+    known = np.isfinite(whole).all(axis=2)
+    return LiftedPerson(
+        positions=np.where(known[..., None], whole, np.nan),
+        sigma=np.where(known, spread, np.nan),
+        confidence=np.where(known, seen_as, 0.0),
+        status=np.where(known, KeypointStatus.OPTIMISED, KeypointStatus.LOST).astype(np.uint8),
+    )
 
 
-def _between_shoulders(clip: PoseClip) -> Array:
+def _between_shoulders(clip: PoseClip) -> FloatArray:
     """The middle of the shoulders in the picture. Shape (T, 2)."""
     return _filled(clip.body.places[:, [SHOULDER["left"], SHOULDER["right"]], 1:].mean(axis=1))
 
 
-def _lift_side(clip: PoseClip, side: str, places: Array, sigma: Array, measure: BodyMeasure) -> LiftedHand:
+def _lift_side(
+    clip: PoseClip, side: str, places: FloatArray, sigma: FloatArray, measure: BodyMeasure
+) -> LiftedHand:
     """Fill in depths and deviations of elbow and wrist of one side; the hand about its wrist."""
-    shoulder, elbow, wrist = SHOULDER[side], ELBOW[side], BODY_WRIST[side]
+    shoulder, elbow, wrist = SHOULDER[side], ELBOW[side], WRIST[side]
     period = 1.0 / clip.rate
     unknown = np.full(len(places), np.nan)
 
-    def hand_along(forearm: Array) -> LiftedHand:
+    def hand_along(forearm: FloatArray) -> LiftedHand:
         points, right = clip.hand(side), side == "right"
         return lift_hand(points, scale=measure.scale, period=period, right=right, forearm=forearm)
 
@@ -154,38 +170,13 @@ def _lift_side(clip: PoseClip, side: str, places: Array, sigma: Array, measure: 
     return hand
 
 
-def _hand(clip: PoseClip, side: str, places: Array, sigma: Array, hand: LiftedHand) -> Keypoints:
-    """A hand at the end of its arm."""
-    wrist = BODY_WRIST[side]
-    points = hand.points + places[:, wrist, None]
-    spread = np.hypot(hand.sigma, _mean(sigma[:, wrist, None]))
-    return _keypoints(points, spread, clip.hand(side).confidence)
-
-
-def _keypoints(positions: Array, sigma: Array, confidence: Array) -> Keypoints:
-    known = np.asarray(np.isfinite(positions).all(axis=2))
-    return Keypoints(
-        positions=np.where(known[..., None], positions, np.nan),
-        sigma=np.where(known, sigma, np.nan),
-        confidence=np.where(known, confidence, 0.0),
-        status=np.where(known, _OPTIMISED, _LOST).astype(np.uint8),
-    )
-
-
-def _body_confidence(clip: PoseClip) -> Array:
-    confidence = clip.body.confidence.copy()
-    for point, pair in ((NECK, SHOULDER), (MID_HIP, HIP)):
-        confidence[:, point] = confidence[:, list(pair.values())].min(axis=1)
-    return confidence
-
-
-def _mean(sigma: Array) -> Array:
+def _mean(sigma: FloatArray) -> FloatArray:
     """Root mean over the axes of a deviation across the view, twice, and along it. Shape (..., 2)."""
-    mean: Array = np.sqrt((2.0 * sigma[..., 0] ** 2 + sigma[..., 1] ** 2) / 3.0)
+    mean: FloatArray = np.sqrt((2.0 * sigma[..., 0] ** 2 + sigma[..., 1] ** 2) / 3.0)
     return mean
 
 
-def _filled(places: Array) -> Array:
+def _filled(places: FloatArray) -> FloatArray:
     """Places over time, with gaps filled in straight lines; known at least once. Shape (T, 2)."""
     known = np.isfinite(places).all(axis=1)
     if not known.any():

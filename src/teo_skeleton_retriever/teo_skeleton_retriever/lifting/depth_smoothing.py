@@ -7,10 +7,10 @@ from __future__ import annotations
 import numpy as np
 from scipy.linalg import solveh_banded
 
-from teo_common.arrays import Array
+from teo_skeleton_retriever.arrays import FloatArray
 
 
-def smooth_depth(depths: Array, sigmas: Array, *, period: float, acceleration: float) -> Array:
+def smooth_depth(depths: FloatArray, sigmas: FloatArray, *, period: float, acceleration: float) -> FloatArray:
     """The most likely depths, where accelerations are as large as given and measurements as sure.
 
     Least squares of both, after Whittaker (1923). A limb that lies across the view has a depth that a pixel

@@ -14,15 +14,15 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
-from teo_common.arrays import Array
-from teo_sign_capture.tracks.skeleton_track import EAR, EYE, NOSE
+from teo_skeleton_retriever.arrays import FloatArray
+from teo_skeleton_retriever.layouts.person_layout import ROW
 
-# Places in BODY_25.
-POINTS = (NOSE, EYE["right"], EYE["left"], EAR["right"], EAR["left"])
+# Rows of BODY_25.
+POINTS = tuple(ROW[name] for name in ("Nose", "REye", "LEye", "REar", "LEar"))
 
 # [m] Forward, left, up, from the middle of the ears: of an adult, to the centimetre. Pupils are 63 mm apart
 # and tragi 0.15 m.
-HEAD = np.array(
+_HEAD_SHAPE = np.array(
     [
         [0.115, 0.0, -0.025],
         [0.085, -0.032, 0.02],
@@ -43,7 +43,7 @@ _SIZE = 0.1
 _LEAST_POINTS = 3
 
 
-def lift_head(places: Array) -> tuple[Array, Array]:
+def lift_head(places: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Find the depth of the head's points.
 
     Args:
@@ -65,7 +65,7 @@ def lift_head(places: Array) -> tuple[Array, Array]:
     return depths, sigma
 
 
-def _fit(points: Array, seen: NDArray[np.bool_], before: Array) -> tuple[Array, Array]:
+def _fit(points: FloatArray, seen: NDArray[np.bool_], before: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Turn as a rotation vector, and the five points turned. Shapes (3,) and (5, 3).
 
     The slopes are written out: a film of three seconds asks for 150 fits, and finding them by differences
@@ -76,12 +76,12 @@ def _fit(points: Array, seen: NDArray[np.bool_], before: Array) -> tuple[Array, 
     priors = np.vstack([np.eye(4)[:3], np.eye(4)]) / spread[:, None]
     usual = np.array([0.0, 0.0, 0.0, *before, 0.0]) / spread
 
-    def residuals(x: Array) -> Array:
+    def residuals(x: FloatArray) -> FloatArray:
         shown = _head(x)[seen, 1:]
         away = (shown - shown.mean(axis=0) - wanted).ravel() / _POINT
         return np.concatenate([away, priors @ x - usual])
 
-    def slopes(x: Array) -> Array:
+    def slopes(x: FloatArray) -> FloatArray:
         moved = _slopes(x, _head(x))[seen, 1:]
         return np.vstack([(moved - moved.mean(axis=0)).reshape(-1, 4) / _POINT, priors])
 
@@ -89,7 +89,7 @@ def _fit(points: Array, seen: NDArray[np.bool_], before: Array) -> tuple[Array, 
     return found[:3], _head(found)
 
 
-def _head(x: Array) -> Array:
+def _head(x: FloatArray) -> FloatArray:
     """The points of a head of some turn and size [m]. Shape (5, 3).
 
     Args:
@@ -98,12 +98,12 @@ def _head(x: Array) -> Array:
     axis, angle = _axis_and_angle(x[:3])
     sin, cos = math.sin(angle), math.cos(angle)
     across = _CROSSED @ axis
-    turned = cos * HEAD + sin * across + (1.0 - cos) * np.outer(HEAD @ axis, axis)
-    head: Array = math.exp(x[3]) * turned
+    turned = cos * _HEAD_SHAPE + sin * across + (1.0 - cos) * np.outer(_HEAD_SHAPE @ axis, axis)
+    head: FloatArray = math.exp(x[3]) * turned
     return head
 
 
-def _slopes(x: Array, head: Array) -> Array:
+def _slopes(x: FloatArray, head: FloatArray) -> FloatArray:
     """How the points of a head move with its turn and size. Shape (5, 3, 4)."""
     axis, angle = _axis_and_angle(x[:3])
     # Derivative of a rotation by its vector (J. Sola et al., A micro Lie theory, 2018, eq. 145).
@@ -112,15 +112,15 @@ def _slopes(x: Array, head: Array) -> Array:
     return np.concatenate([-_cross_matrix(head) @ jacobian, head[..., None]], axis=2)
 
 
-def _axis_and_angle(vector: Array) -> tuple[Array, float]:
+def _axis_and_angle(vector: FloatArray) -> tuple[FloatArray, float]:
     # No angle of zero, by which would be divided.
     angle = math.sqrt(float(vector @ vector)) + 1e-12
     return vector / angle, angle
 
 
-def _cross_matrix(points: Array) -> Array:
+def _cross_matrix(points: FloatArray) -> FloatArray:
     """Matrices that multiply a vector by points from the left. Shape (..., 3, 3)."""
-    matrices: Array = (points @ _GENERATORS).reshape(*points.shape, 3)
+    matrices: FloatArray = (points @ _GENERATORS).reshape(*points.shape, 3)
     return matrices
 
 
@@ -133,4 +133,4 @@ _GENERATORS = np.array(
     ]
 )
 # The product of any axis and the points of the head is this times the axis.
-_CROSSED = -_cross_matrix(HEAD)
+_CROSSED = -_cross_matrix(_HEAD_SHAPE)

@@ -1,11 +1,12 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The cheapest path through time over candidates (Viterbi, IEEE Trans. Inf. Theory 1967)."""
+"""Ways through time by dynamic programming: the cheapest path over candidates, and two motions aligned."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,8 @@ def cheapest_path(
     haste: float = 0.0,
 ) -> NDArray[np.intp]:
     """Choose one candidate at each of n moments: least sum of their costs and of the steps between them.
+
+    The algorithm is Viterbi's (IEEE Trans. Information Theory, 1967).
 
     Args:
         costs: Of the c candidates at each moment; c may differ from moment to moment. n arrays of shape (c,).
@@ -46,3 +49,38 @@ def cheapest_path(
     for origin in reversed(origins):
         chosen.append(int(origin[chosen[-1]]))
     return np.array(chosen[::-1], dtype=np.intp)
+
+
+class Warp(NamedTuple):
+    """How two motions correspond: mean distance along the way [unit], and pairs of frames, shape (p, 2)."""
+
+    distance: float
+    pairs: NDArray[np.int64]
+
+
+def warp(first: Array, second: Array) -> Warp:
+    """Align two motions at any pace (dynamic time warping; Sakoe and Chiba, IEEE Trans. ASSP, 1978).
+
+    Two frames are as far apart as what differs most in them.
+
+    Args:
+        first: f points or directions in each frame. Shape (n, f, 3).
+        second: Likewise. Shape (m, f, 3).
+    """
+    cost = np.linalg.norm(first[:, None] - second[None], axis=3).max(axis=2)
+    total = np.full((len(first) + 1, len(second) + 1), np.inf)
+    total[0, 0] = 0.0
+    for row in range(len(first)):
+        for column in range(len(second)):
+            before = min(total[row, column], total[row, column + 1], total[row + 1, column])
+            total[row + 1, column + 1] = cost[row, column] + before
+    row, column = len(first) - 1, len(second) - 1
+    pairs = [(row, column)]
+    while row or column:
+        steps = ((row - 1, column - 1), (row - 1, column), (row, column - 1))
+        row, column = min(
+            steps, key=lambda step: total[step[0] + 1, step[1] + 1] if min(step) >= 0 else np.inf
+        )
+        pairs.append((row, column))
+    path = np.array(pairs[::-1], dtype=np.int64)
+    return Warp(float(cost[path[:, 0], path[:, 1]].mean()), path)

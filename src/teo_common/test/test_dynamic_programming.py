@@ -8,7 +8,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from teo_sign_capture.viterbi import cheapest_path
+from teo_common.dynamic_programming import cheapest_path, warp
 
 
 @settings(max_examples=30, deadline=None)
@@ -41,3 +41,14 @@ def test_candidates_may_be_as_many_as_there_are_at_each_moment():
     costs = [np.array([0.0, 0.1]), np.array([0.0]), np.array([0.5, 0.3, 0.0])]
     values = [np.array([[0.0], [1.0]]), np.array([[1.0]]), np.array([[1.0], [2.0], [9.0]])]
     assert cheapest_path(costs, values, 1.0).tolist() == [1, 0, 0]
+
+
+def test_warping_finds_the_same_moments_at_another_pace():
+    first, second = (
+        np.stack([0.5 * np.sin(2.0 * np.pi * share), np.cos(share), 0.0 * share], axis=1)[:, None]
+        for share in (np.linspace(0.0, 1.0, 40), np.linspace(0.0, 1.0, 70))
+    )
+    aligned = warp(first, second)
+    assert aligned.distance < 0.05
+    # Frame for frame along the diagonal.
+    assert np.abs(aligned.pairs[:, 0] / 39.0 - aligned.pairs[:, 1] / 69.0).max() < 0.1

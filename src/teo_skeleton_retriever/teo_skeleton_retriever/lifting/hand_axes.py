@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from teo_common.arrays import Array
+from teo_skeleton_retriever.arrays import FloatArray
 
 # MediaPipe's numbers: the wrist, the thumb's first joint, the fingers' knuckles; three more points follow
 # each.
@@ -23,7 +23,7 @@ _SEEN_STRAIGHT = np.radians(20.0)
 _STRAIGHTEST = 5.0
 
 
-def palm_axes(hand: Array) -> Array:
+def palm_axes(hand: FloatArray) -> FloatArray:
     """Axes of the palm straight from the landmarks.
 
     Args:
@@ -41,13 +41,13 @@ def palm_axes(hand: Array) -> Array:
     return np.stack([along, np.cross(out, along), out], axis=-1)
 
 
-def in_palm(hand: Array) -> Array:
+def in_palm(hand: FloatArray) -> FloatArray:
     """Keypoints of right hands from the wrist, in palm axes [m]. Shapes (T, 21, 3)."""
-    local: Array = np.einsum("tij,tki->tkj", palm_axes(hand), hand - hand[:, WRIST, None])
+    local: FloatArray = np.einsum("tij,tki->tkj", palm_axes(hand), hand - hand[:, WRIST, None])
     return local
 
 
-def finger_bends(local: Array) -> Array:
+def finger_bends(local: FloatArray) -> FloatArray:
     """Bends of knuckle, middle and last joint of index ... little finger [rad].
 
     Args:
@@ -68,7 +68,7 @@ def finger_bends(local: Array) -> Array:
     return bends
 
 
-def straight_bends(hands: Array) -> Array:
+def straight_bends(hands: FloatArray) -> FloatArray:
     """What the joints of a signer's fingers seem bent by while the fingers are straight.
 
     Args:
@@ -84,5 +84,5 @@ def straight_bends(hands: Array) -> Array:
         return np.tile(_STRAIGHT, (4, 1))
     least = np.percentile(finger_bends(in_palm(seen)), _STRAIGHTEST, axis=0)
     # A knuckle that bends backwards is straight before it does.
-    straight: Array = np.where(least < _SEEN_STRAIGHT, np.maximum(least, 0.0), _STRAIGHT)
+    straight: FloatArray = np.where(least < _SEEN_STRAIGHT, np.maximum(least, 0.0), _STRAIGHT)
     return straight

@@ -19,16 +19,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from teo_common.arrays import Array
-from teo_sign_capture.lifting.depth_smoothing import smooth_depth
-from teo_sign_capture.recordings.pose_file import Points
-from teo_sign_capture.tracks.skeleton_track import ELBOW, SHOULDER, WRIST
-from teo_sign_capture.viterbi import cheapest_path
+from teo_common.dynamic_programming import cheapest_path
+from teo_skeleton_retriever.arrays import FloatArray
+from teo_skeleton_retriever.lifting.clip import ELBOW, SHOULDER, SIDES, WRIST, Points
+from teo_skeleton_retriever.lifting.depth_smoothing import smooth_depth
 
 # [m] Lengths of an adult's limbs, between the centres of the joints. After Drillis and Contini, "Body Segment
 # Parameters" (1966), a person of 1.65 m has arms of 0.31 and 0.24 and acromia 0.43 m apart; joints of
 # shoulders, to which and from which detectors measure, are some 4 cm further in and down.
-SHOULDERS, UPPER_ARM, FOREARM = 0.36, 0.28, 0.24
+_SHOULDERS, _UPPER_ARM, _FOREARM = 0.36, 0.28, 0.24
 
 # A person turns, and a limb points at the camera: the length is what few frames exceed.
 _SHOULDERS_PERCENTILE, _LIMB_PERCENTILE = 90.0, 95.0
@@ -67,21 +66,21 @@ def measure_body(body: Points) -> BodyMeasure:
     both = [(SHOULDER["left"], SHOULDER["right"])]
     shoulders = float(np.percentile(_lengths(body, both), _SHOULDERS_PERCENTILE))
     limbs, seen = [], []
-    for usual, start, end in ((UPPER_ARM, SHOULDER, ELBOW), (FOREARM, ELBOW, WRIST)):
-        expected = usual / SHOULDERS * shoulders
-        lengths = _lengths(body, [(start[side], end[side]) for side in ("left", "right")])
+    for usual, start, end in ((_UPPER_ARM, SHOULDER, ELBOW), (_FOREARM, ELBOW, WRIST)):
+        expected = usual / _SHOULDERS * shoulders
+        lengths = _lengths(body, [(start[side], end[side]) for side in SIDES])
         longest = float(np.percentile(lengths, _LIMB_PERCENTILE)) if lengths.size else 0.0
         full = _FULL_LENGTH[0] <= longest / expected <= _FULL_LENGTH[1]
         limbs.append(_TRUST * longest + (1.0 - _TRUST) * expected if full else expected)
         seen.append(full)
     # The more of a person was measured the less one odd proportion matters.
-    scale = (SHOULDERS + UPPER_ARM + FOREARM) / (shoulders + sum(limbs))
+    scale = (_SHOULDERS + _UPPER_ARM + _FOREARM) / (shoulders + sum(limbs))
     return BodyMeasure(
         scale=scale, upper_arm=scale * limbs[0], forearm=scale * limbs[1], seen=(seen[0], seen[1])
     )
 
 
-def _lengths(body: Points, pairs: list[tuple[int, int]]) -> Array:
+def _lengths(body: Points, pairs: list[tuple[int, int]]) -> FloatArray:
     """Lengths across the view in all frames in which both ends are sure, or, if there is none, seen."""
     found = []
     for least in (_SURE, 0.0):
@@ -139,24 +138,24 @@ _LENGTH_SIGMA = (0.07, 0.12)
 class LiftedArm(NamedTuple):
     """How far elbow and wrist are in front of the shoulders."""
 
-    elbow: Array
+    elbow: FloatArray
     """[m] Shape (T,)."""
-    wrist: Array
+    wrist: FloatArray
     """[m] Shape (T,)."""
-    elbow_sigma: Array
+    elbow_sigma: FloatArray
     """Across the view and along it [m]. Shape (T, 2)."""
-    wrist_sigma: Array
+    wrist_sigma: FloatArray
     """Likewise. Shape (T, 2)."""
 
 
 def lift_arm(
     *,
-    shoulder: Array,
-    elbow: Array,
-    wrist: Array,
-    confidence: Array,
-    guess: Array,
-    hand: Array,
+    shoulder: FloatArray,
+    elbow: FloatArray,
+    wrist: FloatArray,
+    confidence: FloatArray,
+    guess: FloatArray,
+    hand: FloatArray,
     measure: BodyMeasure,
     period: float,
 ) -> LiftedArm:
@@ -203,7 +202,9 @@ def lift_arm(
     )
 
 
-def _with_usual(depths: Array, sigma: Array, across: Array, lengths: Array) -> tuple[Array, Array]:
+def _with_usual(
+    depths: FloatArray, sigma: FloatArray, across: FloatArray, lengths: FloatArray
+) -> tuple[FloatArray, FloatArray]:
     """Depths of wrists and what is usual, each by how sure it is; the usual where no depth is known.
 
     What is measured says little where a limb lies across the view or an elbow is guessed.
@@ -216,13 +217,13 @@ def _with_usual(depths: Array, sigma: Array, across: Array, lengths: Array) -> t
 
 
 def _costs(
-    candidates: Array,
-    across: Array,
-    shoulder: Array,
-    guess: Array,
-    hand: Array,
-    lengths: Array,
-) -> Array:
+    candidates: FloatArray,
+    across: FloatArray,
+    shoulder: FloatArray,
+    guess: FloatArray,
+    hand: FloatArray,
+    lengths: FloatArray,
+) -> FloatArray:
     """How unlikely each pair of signs is in each frame, by itself. Shape (T, 4)."""
     elbow, wrist = candidates[..., 0], candidates.sum(axis=2)
     place = shoulder + across.sum(axis=1)
@@ -239,20 +240,20 @@ def _costs(
     against = np.where(np.isfinite(guess), np.sign(guess), 0.0)[:, None] * candidates[..., 1] < 0.0
     usual, deviation = _usual_depth(across, lengths)
     unusual = (wrist - usual[:, None]) / deviation[:, None]
-    costs: Array = (
+    costs: FloatArray = (
         unusual**2 + behind**2 + inside**2 + folded**2 + bent + _FORWARD * away + _DETECTOR * against
     )
     return costs
 
 
-def _usual_depth(across: Array, lengths: Array) -> tuple[Array, Array]:
+def _usual_depth(across: FloatArray, lengths: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Where a wrist mostly is in front of the shoulders, and the deviation [m]. Shapes (T,)."""
     hangs = -across[..., 1].sum(axis=1) > _HANGS * lengths.sum()  # no limb that is not seen hangs
     usual = np.where(hangs, _HANGING[0], _RAISED[0])
     return usual, np.where(hangs, _HANGING[1], _RAISED[1])
 
 
-def _least_depth(place: Array) -> Array:
+def _least_depth(place: FloatArray) -> FloatArray:
     """How far forward a wrist is at least, by where it is in the view [m]. Shape (T,)."""
     aside, height = np.abs(place[:, 0]), place[:, 1]
     least = np.full(len(place), _BACK)
@@ -261,10 +262,10 @@ def _least_depth(place: Array) -> Array:
     return least
 
 
-def _angle(first: Array, second: Array) -> Array:
+def _angle(first: FloatArray, second: FloatArray) -> FloatArray:
     with np.errstate(invalid="ignore", divide="ignore"):
         cosine = (first * second).sum(axis=-1) / (
             np.linalg.norm(first, axis=-1) * np.linalg.norm(second, axis=-1)
         )
-    angles: Array = np.arccos(np.clip(cosine, -1.0, 1.0))
+    angles: FloatArray = np.arccos(np.clip(cosine, -1.0, 1.0))
     return angles

@@ -1,0 +1,59 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""A person's points in the picture over time: what is lifted into space."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from teo_skeleton_retriever.arrays import BoolArray, FloatArray
+from teo_skeleton_retriever.layouts.person_layout import ROW
+
+SIDES = ("right", "left")
+# Rows of BODY_25, by side.
+SHOULDER, ELBOW, WRIST, HIP = (
+    {"right": ROW[f"R{joint}"], "left": ROW[f"L{joint}"]} for joint in ("Shoulder", "Elbow", "Wrist", "Hip")
+)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Points:
+    """Points of one part of a person over time.
+
+    Attributes:
+        places: Forward (to the viewer), to the signer's left, up; in the units of the clip. Depth, the first,
+            is only good relative to other points of the part, in a unit of its own, and NaN where the
+            layout has none; all three are NaN where the point was not seen. Shape (T, K, 3).
+        confidence: 0 to 1; 0 where not seen. Shape (T, K).
+    """
+
+    places: FloatArray
+    confidence: FloatArray
+
+    @property
+    def seen(self) -> BoolArray:
+        """Whether a point was seen. Shape (T, K)."""
+        return self.confidence > 0.0
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PoseClip:
+    """A person in a picture over time.
+
+    Attributes:
+        rate: Frames a second [Hz].
+        body: BODY_25; what is not used in signing is not seen.
+        left_hand: The person's own left, 21 points.
+        right_hand: Likewise.
+        source: Name of the file.
+    """
+
+    rate: float
+    body: Points
+    left_hand: Points
+    right_hand: Points
+    source: str
+
+    def hand(self, side: str) -> Points:
+        """The hand of a side, "right" or "left"."""
+        return self.right_hand if side == "right" else self.left_hand
