@@ -5,7 +5,7 @@
 A word's time is from when its first letter stands to when its last one has been held, over its letters. The
 baseline in the same run is the alphabet as captured, letter by letter, each held as long as its recording
 holds it. The bound is the least time of the slowest joint from letter to letter, with the same strokes and
-holds. `python bench/spelling.py` prints the figures.
+holds.
 """
 
 from __future__ import annotations
@@ -18,9 +18,10 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
+from teo_names import COMMANDED_JOINTS
 
-import planning
-from report import Figure
+from planning import as_driven
+from report import Figure, run
 from teo_common.text_folding import without_accents
 from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
@@ -28,7 +29,6 @@ from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
 from teo_motion.sentence.posture_choice import choose_postures
 from teo_motion.trajectory.limits import MotionLimits
-from teo_names import COMMANDED_JOINTS
 from teo_sign_translator.data_files import data_file
 from teo_signs.errors import PlanError
 from teo_signs.lexicon import Lexicon
@@ -150,7 +150,7 @@ def _random_words(numbers: range) -> tuple[int, int, float]:
                 raise RuntimeError(f"{'-'.join(word)}: {error.code}") from error
             refused += 1
             continue
-        broken += planning.check(plan).violations
+        broken += len(as_driven(plan).broken())
         if plan.nearest is not None:
             nearest = min(nearest, plan.nearest.distance)
     return broken, refused, nearest
@@ -185,11 +185,5 @@ def _planner(drive: str = _TEO.default_hand_drive) -> Planner:
     return Planner(_alphabet(), robot=_robot(), limits=MotionLimits.of_robot(hand_drive=drive))
 
 
-def main() -> None:
-    """Print the figures."""
-    for figure in measure():
-        print(f"{figure.what}: {figure.value}")
-
-
 if __name__ == "__main__":
-    main()
+    run(measure)

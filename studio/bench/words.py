@@ -16,8 +16,7 @@ from statistics import median
 import wordfreq
 
 from glosses.annotated_signs import read_annotated
-from glosses.baselines import lemmas_in_spanish_order
-from glosses.systems import SENTENCES, lines
+from glosses.systems import SENTENCES, lemmas_in_spanish_order, lines
 from report import Figure
 from teo_description.robot import Robot
 from teo_motion.planner import Planner

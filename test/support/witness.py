@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Somebody who sees what is published, what becomes of it, and how the robot moves.
 
-As a process, `python -m nodes.witness`, it prints what it knows five times a second as a line of JSON, for
+As a process, `python -m witness`, it prints what it knows five times a second as a line of JSON, for
 those who cannot be where it is: in another machine's network.
 """
 
@@ -17,12 +17,12 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
+from teo_names import ALL_JOINTS, COMMANDED_JOINTS, joint_limits
 from teo_sign_msgs.msg import ExecutorStatus, SignSentence, TranslationStatus
 
 from teo_bringup.graph import SIGNING
 from teo_common.node_process import run_node
 from teo_description.humanoid import load_humanoid
-from teo_names import ALL_JOINTS, COMMANDED_JOINTS, joint_limits
 
 _AT_REST = 0.02  # [rad]
 _PERIOD = 0.2  # [s]
