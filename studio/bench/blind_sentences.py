@@ -17,7 +17,7 @@ from typing import Any
 
 from glosses.measures import Glosses, fewest_edits, overlap
 from glosses.systems import SENTENCES, Judged, System, english_systems, judged, published, systems
-from report import Figure, run, share
+from report import Figure, share
 from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 
 _RECORD = SENTENCES / "blind.json"
@@ -40,7 +40,7 @@ def figures(language: str) -> Iterator[Figure]:
     what = f"{language}, blind sentences"
     results = _recorded().get(language, {}).get(_weights(language))
     if results is None:
-        command = f"python -m blind_sentences --language {language}"
+        command = f"make bench BENCH='blind_sentences --language {language}'"
         yield Figure(what, f"not measured for this model: {command}")
         return
     counts = [len(accepted) for _, accepted in _blind(language)]
@@ -97,7 +97,3 @@ def _weights(language: str) -> str:
     """The hash of the shipped model's weights."""
     weights = load_language(language).models / "pointer.safetensors"
     return hashlib.sha256(weights.read_bytes()).hexdigest()
-
-
-if __name__ == "__main__":
-    run(measure)

@@ -20,7 +20,7 @@ import numpy as np
 from rich.progress import track
 
 from kept import kept_folder
-from report import Figure, run
+from report import Figure
 from teo_common.arrays import Array
 from teo_description.robot import Robot
 from teo_sign_authoring.notation.performance import performance
@@ -172,7 +172,3 @@ def _angles(first: Array, second: Array) -> Array:
     cosines = (first * second).sum(axis=1)
     angles: Array = np.arccos(np.clip(cosines, -1.0, 1.0))
     return angles
-
-
-if __name__ == "__main__":
-    run(measure)

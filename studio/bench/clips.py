@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]  # ships no types
 
-from report import Figure, run
+from report import Figure
 from signs.performed import GUESTS, VISITORS, Draw, performed, pictured
 from teo_description.robot import Robot
 from teo_sign_authoring.alphabet.letter_clips import load_letter_clips
@@ -112,7 +112,3 @@ def _letters(robot: Robot, most: int) -> Iterator[_Clip]:
             except LutError as error:
                 refused = [error.code]
             yield _Clip(letter, refused, quality, time.perf_counter() - begins)
-
-
-if __name__ == "__main__":
-    run(measure)

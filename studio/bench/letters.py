@@ -7,7 +7,7 @@ How they are compared says `teo_sign_authoring.transfer.letter_likeness`.
 
 from __future__ import annotations
 
-from report import Figure, run
+from report import Figure
 from teo_description.robot import Robot
 from teo_sign_authoring.transfer.letter_likeness import Likeness, letter_likenesses
 from teo_sign_languages import DEFAULT_LANGUAGE
@@ -52,7 +52,3 @@ def _apart(one: Likeness) -> str:
     """How different the own recording and its look-alikes are."""
     names = [one.letter, *(name for name in one.look_alikes if name != one.letter)]
     return ", ".join(f"{name} {one.distances[name]:.1f}" for name in names)
-
-
-if __name__ == "__main__":
-    run(measure)

@@ -12,7 +12,7 @@ from collections import Counter
 import numpy as np
 from executed_motion import STEP, ContactJudge, judged
 
-from report import Figure, run
+from report import Figure
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan, sample_at
@@ -165,7 +165,3 @@ def _bad_of_batch(glosses: list[str]) -> list[str]:
         if distance < 0.0:
             bad.append(f"{gloss}: {parts}, {-1e3 * distance:.1f} mm in each other")
     return bad
-
-
-if __name__ == "__main__":
-    run(measure)

@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from report import Figure, run, spread
+from report import Figure, spread
 from signs.performed import pictured, script_track
 from teo_common.arrays import Array
 from teo_sign_capture.lifting.clip import lift_clip
@@ -77,7 +77,3 @@ def _size(track: SkeletonTrack) -> float:
     points = track.body.positions
     chain = (SHOULDER["left"], SHOULDER["right"], ELBOW["right"], WRIST["right"])
     return float(np.linalg.norm(np.diff(points[:, chain], axis=1), axis=2).sum(axis=1).mean())
-
-
-if __name__ == "__main__":
-    run(measure)

@@ -16,7 +16,7 @@ import numpy as np
 from executed_motion import Reached, judged
 from made_signs import random_table
 
-from report import Figure, percentiles, run
+from report import Figure, percentiles
 from signs.random_signs import random_tokens
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
@@ -27,7 +27,6 @@ from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.tokens import Kind, Token, parse_printed
 from teo_sim_driver import Trajectory
 
-SENTENCES = 200
 _LETTERS = 10
 _LOOK = 0.002  # [s]: a tenth of the time between two points
 _BATCH = 50  # plans of one random table
@@ -57,9 +56,9 @@ class _Batch(NamedTuple):
     most: Reached
 
 
-def measure(plans: int = 10_000) -> list[Figure]:
-    """Times of sentences, then the limits of random plans."""
-    figures = [*_times(), _planning_of_letters()]
+def measure(plans: int = 10_000, sentences: int = 200) -> list[Figure]:
+    """Times of so many sentences, then the limits of random plans."""
+    figures = [*_times(sentences), _planning_of_letters(sentences // 4)]
     shares = [range(begin, min(begin + _BATCH, plans)) for begin in range(0, plans, _BATCH)]
     with multiprocessing.get_context("spawn").Pool(os.cpu_count()) as pool:
         batches = pool.map(_random_plans, shares, chunksize=4)
@@ -77,7 +76,7 @@ def measure(plans: int = 10_000) -> list[Figure]:
     ]
 
 
-def _times() -> list[Figure]:
+def _times(count: int) -> list[Figure]:
     """Planning time of typical sentences, self-collision included."""
     planner = Planner(Lut.open(default_lut_directory()), robot=Robot.load())
     sentences = [parse_printed(text) for text in _PRINTED]
@@ -85,7 +84,7 @@ def _times() -> list[Figure]:
         planner.plan(sentence)  # reads the entries
     asked = SentenceForm(type=SentenceType.YES_NO_QUESTION, negated=True)
     seconds, with_head, signing = [], [], []
-    for index in range(SENTENCES):
+    for index in range(count):
         sentence = sentences[index % len(sentences)]
         began = time.perf_counter()
         plan = planner.plan(sentence)
@@ -101,12 +100,12 @@ def _times() -> list[Figure]:
     ]
 
 
-def _planning_of_letters() -> Figure:
+def _planning_of_letters(count: int) -> Figure:
     table = Lut.open(default_lut_directory())
     planner, dice = Planner(table, robot=Robot.load()), np.random.default_rng(0)
     letters = [gloss for gloss, sign in table.items() if sign.kind == "letter"]
     seconds = []
-    for _ in range(SENTENCES // 4):
+    for _ in range(count):
         word = dice.choice(letters, _LETTERS).tolist()
         began = time.perf_counter()
         planner.plan([Token(gloss=letter, kind=Kind.LETTER) for letter in word])
@@ -140,7 +139,3 @@ def as_driven(plan: Plan) -> Reached:
     path = Trajectory.quintic(*(values.copy() for values in vars(plan.samples).values()))
     times = np.arange(0.0, plan.duration + 4.0 * _LOOK, _LOOK)
     return judged(path.states(times).positions, _LOOK)
-
-
-if __name__ == "__main__":
-    run(measure)

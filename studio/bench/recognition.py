@@ -23,7 +23,7 @@ from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]  # ships no types
 
 from accuracy.people import random_people
-from report import Figure, percentiles, run, share
+from report import Figure, percentiles, share
 from signs.performed import EARLIER, Draw, performed, pictured
 from teo_common.arrays import Array
 from teo_description.robot import Robot
@@ -241,7 +241,3 @@ def _both(limbs: dict[str, Array]) -> Array:
         for side in ("right", "left")
     ]
     return np.hstack(parts)
-
-
-if __name__ == "__main__":
-    run(measure)

@@ -1,14 +1,11 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Figures as the benches give them, and the command by which a bench runs alone."""
+"""Figures as the benches give them."""
 
 from __future__ import annotations
 
-import argparse
-import inspect
 import math
-import sys
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -42,17 +39,3 @@ def share(count: int, total: int) -> str:
     deviation = z * math.sqrt(part * (1 - part) / total + z * z / (4 * total * total))
     low, high = (abs(middle + side) / (1 + z * z / total) for side in (-deviation, deviation))
     return f"{count} ({100 * part:.0f} %, {100 * low:.0f} to {100 * high:.0f} %)"
-
-
-def run(measure: Callable[..., Iterable[Figure]]) -> None:
-    """Run a bench as a command, and print its figures.
-
-    Args:
-        measure: Its parameters, each with a default, become options of the same name.
-    """
-    parser = argparse.ArgumentParser(description=inspect.getdoc(sys.modules[measure.__module__]))
-    for name, parameter in inspect.signature(measure).parameters.items():
-        default = parameter.default
-        parser.add_argument(f"--{name}", type=type(default), default=default, help=f"default: {default}")
-    for figure in measure(**vars(parser.parse_args())):
-        print(f"{figure.what}: {figure.value}", flush=True)

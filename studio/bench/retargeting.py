@@ -16,7 +16,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, joint_limits
 
-from report import Figure, run, spread
+from report import Figure, spread
 from signs.performed import script_track
 from teo_common.arrays import Array
 from teo_description.humanoid import load_humanoid
@@ -227,7 +227,3 @@ def _copied_joints(track: SkeletonTrack, side: str) -> tuple[tuple[str, ...], Ar
 def _unit(vectors: Array) -> Array:
     units: Array = vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)
     return units
-
-
-if __name__ == "__main__":
-    run(measure)

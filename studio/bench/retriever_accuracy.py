@@ -22,7 +22,7 @@ from rich.progress import track
 from accuracy.errors import PARTS, Errors, errors_of, joined
 from accuracy.methods import Detections, Estimate, detected, one_pixel, original, ours, perfect
 from accuracy.takes import HELD_OUT_TAKES, KNOWN_TAKES, TakeFrame, default_cache, take
-from report import Figure, run
+from report import Figure
 from teo_skeleton_retriever.arrays import DepthArray
 
 MISSING = 0.66
@@ -79,7 +79,3 @@ def _told(errors: Errors) -> str:
     ratio = errors.ratio[known]
     ratio = ratio[np.isfinite(ratio)]
     return f"{text}, in 2 sigma {np.mean(np.abs(ratio) < 2.0):.0%}" if len(ratio) else text
-
-
-if __name__ == "__main__":
-    run(measure)

@@ -16,7 +16,7 @@ from sensor_msgs.msg import CameraInfo, Image
 from teo_sign_msgs.msg import SkeletonArray
 
 from nodes.bench_node import BenchNode, bench_graph, cpu_seconds, seconds
-from report import Figure, percentiles, run
+from report import Figure, percentiles
 from teo_skeleton_retriever.bags.bag_images import BagImages
 from teo_skeleton_retriever.bags.bag_reader import Bag
 from teo_skeleton_retriever.bags.topic_choice import choose_topics
@@ -171,7 +171,3 @@ def _image(encoding: str, pixels: np.ndarray) -> Image:
         step=pixels.strides[0],
         data=array("B", pixels.tobytes()),
     )
-
-
-if __name__ == "__main__":
-    run(measure)

@@ -21,7 +21,7 @@ import numpy as np
 from teo_names import COMMANDED_JOINTS
 
 from planning import as_driven
-from report import Figure, run
+from report import Figure
 from teo_common.text_folding import without_accents
 from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
@@ -183,7 +183,3 @@ def _captured() -> dict[str, Sign]:
 @cache
 def _planner(drive: str = _TEO.default_hand_drive) -> Planner:
     return Planner(_alphabet(), robot=_robot(), limits=MotionLimits.of_robot(hand_drive=drive))
-
-
-if __name__ == "__main__":
-    run(measure)

@@ -193,13 +193,3 @@ def tokens_of(sentence: Sentence) -> list[Token]:
 
 def _share(part: float, total: float) -> str:
     return f"{100 * part / total:.0f} %"
-
-
-def main() -> None:
-    """Print the figures."""
-    for figure in measure():
-        print(f"{figure.what}: {figure.value}")
-
-
-if __name__ == "__main__":
-    main()

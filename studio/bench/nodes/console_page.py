@@ -13,7 +13,7 @@ from trajectory_msgs.msg import JointTrajectory
 
 from nodes.bench_node import BenchNode, bench_graph, cpu_seconds
 from nodes.driver_rate import wave
-from report import Figure, run
+from report import Figure
 
 
 def measure(watched: float = 15.0) -> list[Figure]:
@@ -73,7 +73,3 @@ def _busy(process: int, watched: float, page: Page | None) -> float:
 
 def _collect(socket: WebSocket, poses: list[bytes]) -> None:
     socket.on("framereceived", lambda frame: poses.append(frame) if isinstance(frame, bytes) else None)
-
-
-if __name__ == "__main__":
-    run(measure)

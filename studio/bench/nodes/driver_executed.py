@@ -20,7 +20,7 @@ from executed_motion import NEAR, STEP, ContactJudge, Reached, following, judged
 from rich.progress import track
 
 from kept import kept_folder
-from report import Figure, run
+from report import Figure
 from signs.random_signs import random_tokens
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
@@ -129,7 +129,3 @@ def _figures(found: list[Judged]) -> Iterator[Figure]:
         f"sentences in which parts of the robot touch, {what}",
         f"{touching}; nearest {near.nearest * 1e3:.2f} mm ({near.parts or 'none under 2 mm'})",
     )
-
-
-if __name__ == "__main__":
-    run(measure)

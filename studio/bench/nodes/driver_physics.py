@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from rich.progress import track
 from teo_names import BODY_JOINTS, COMMANDED_JOINTS
 
-from report import Figure, run
+from report import Figure
 from signs.random_signs import random_tokens
 from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
@@ -78,7 +78,3 @@ def _figures(followed: list[_Followed]) -> Iterator[Figure]:
         yield Figure(
             f"sentences in which parts {what} press on each other with over {_GRIPS:g} N", str(count)
         )
-
-
-if __name__ == "__main__":
-    run(measure)

@@ -19,7 +19,7 @@ from teo_names import COMMANDED_JOINTS, HOME, joint_limits
 from trajectory_msgs.msg import JointTrajectory
 
 from nodes.bench_node import BenchNode, bench_graph, cpu_seconds, seconds
-from report import Figure, percentiles, run
+from report import Figure, percentiles
 from teo_sim_driver import JointFollower, check
 
 PERIOD = 0.01  # [s]
@@ -156,7 +156,3 @@ def _longest_gap(node: BenchNode, heard: list[JointState], send: partial[object]
 def _gaps(heard: list[JointState]) -> NDArray[np.float64]:
     """Times between joint states [s]."""
     return np.diff([seconds(state.header.stamp) for state in heard])
-
-
-if __name__ == "__main__":
-    run(measure)

@@ -16,7 +16,7 @@ from rclpy.serialization import serialize_message
 from teo_names import COMMANDED_JOINTS, LEG_JOINTS, joint_limits
 
 from nodes.driver_rate import PERIOD, SECOND, home, wave
-from report import Figure, run
+from report import Figure
 from teo_sim_driver import JointFollower, Mode, Refusal, Rules, TrajectoryError
 from teo_sim_driver.checking.intake import MOST_WAITING, Intake
 
@@ -172,7 +172,3 @@ def _stops(stops: int) -> list[Figure]:
             f"farthest {max(farthest):.4f} rad (bound {top * longest / 2.0:.4f} rad)",
         )
     ]
-
-
-if __name__ == "__main__":
-    run(measure)

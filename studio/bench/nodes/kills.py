@@ -24,7 +24,7 @@ from std_msgs.msg import String
 from witness import Witness
 
 from nodes.bench_node import bench_graph
-from report import Figure, run
+from report import Figure
 from teo_bringup.graph import NODES, SIGNING, executable_of
 
 _TEXT = "Hola. Sí."
@@ -115,7 +115,3 @@ def measure(kills: int = 20, seed: int = 13) -> list[Figure]:
         Figure("longest from a restart until all is signed and at rest", f"{longest:.0f} s"),
         Figure("greatest speed over the limit", f"{fastest:.3f}"),
     ]
-
-
-if __name__ == "__main__":
-    run(measure)

@@ -20,7 +20,7 @@ from hosts import missing
 from laboratory import PROGRAMS, ROOT, Laboratory
 from witness import Seen
 
-from report import Figure, run
+from report import Figure
 
 # Name, one-way delay [s], share of packets lost, time without the robot [s].
 _ROWS = (
@@ -76,7 +76,3 @@ def _moves(seen: Seen) -> bool:
 
 def _done(count: int, seen: Seen) -> bool:
     return seen.at_rest and len(seen.outcomes) == count
-
-
-if __name__ == "__main__":
-    run(measure)

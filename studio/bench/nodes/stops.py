@@ -16,7 +16,7 @@ from queue_world import World
 from rich.progress import track
 from teo_names import COMMANDED_JOINTS
 
-from report import Figure, run
+from report import Figure
 from teo_lut_executor.node.messages import to_stop
 from teo_motion.planner import Planner
 from teo_motion.trajectory.ruckig_segment import State
@@ -122,7 +122,3 @@ def _stopped(table: Lut, glosses: list[str], dice: np.random.Generator) -> tuple
     duration = world.now - began
     world.run(0.3)
     return world, duration
-
-
-if __name__ == "__main__":
-    run(measure)

@@ -25,7 +25,7 @@ from teo_sign_msgs.msg import ExecutorStatus
 from trajectory_msgs.msg import JointTrajectory
 
 from nodes.bench_node import BenchNode, bench_graph, seconds
-from report import Figure, percentiles, run
+from report import Figure, percentiles
 from teo_bringup.graph import Graph
 from teo_description.humanoid import load_humanoid
 
@@ -155,7 +155,3 @@ def measure(sentences: int = 200) -> list[Figure]:
             robot.pass_time()
             robot.wait_for("the end", lambda: ExecutorStatus.STATE_IDLE in robot.states)
     return [percentiles(name, values) for name, values in latencies.items()]
-
-
-if __name__ == "__main__":
-    run(measure)

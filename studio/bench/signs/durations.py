@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from glosses.systems import lines
-from report import Figure, run
+from report import Figure
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
@@ -95,7 +95,3 @@ def _bound(plan: Plan, limits: MotionLimits) -> float:
         before = timing.start + timing.duration
     away = plan.positions[-1] - plan.at(before)[0]
     return total + float(limits.least_times(away, columns).max())
-
-
-if __name__ == "__main__":
-    run(measure)

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from report import Figure, run
+from report import Figure
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
 from teo_sign_authoring.transfer.fit import fit_table, median_stretch, within_share
@@ -74,7 +74,3 @@ def _seconds(robot: Robot, lut: Lut) -> float:
         except PlanError:  # counted among the refused where a sign is to blame
             continue
     return float(np.median(found))
-
-
-if __name__ == "__main__":
-    run(measure)
