@@ -30,14 +30,9 @@ def measure(language: str = DEFAULT_LANGUAGE, robot: str = "teo") -> list[Figure
         Figure("letters most like their own recording, as captured", _count(captured)),
         Figure("letters most like their own recording, in their last alternative", _count(played)),
         *(
-            Figure(f"{one.letter} is taken for {one.ranking[0]}", _apart(one))
+            Figure(f"{one.letter}, alternative {one.posture}: looks like", _apart(one))
             for one in found
-            if not one.right
-        ),
-        *(
-            Figure(f"{one.letter} is hardly told apart", _apart(one))
-            for one in found
-            if one.right and one.look_alikes
+            if one.look_alikes or not one.right
         ),
     ]
 
@@ -49,6 +44,6 @@ def _count(found: list[Likeness]) -> str:
 
 
 def _apart(one: Likeness) -> str:
-    """How different the own recording and its look-alikes are."""
+    """How different the own recording is, and its look-alikes."""
     names = [one.letter, *(name for name in one.look_alikes if name != one.letter)]
     return ", ".join(f"{name} {one.distances[name]:.1f}" for name in names)

@@ -50,16 +50,16 @@ _PARTS = {
 }
 
 
-def measure() -> list[Figure]:
-    """All figures, a row for each set of sentences."""
-    every = systems()
+def measure(every: int = 1) -> list[Figure]:
+    """All figures, a row for each set of sentences, by every so manieth sentence of the larger ones."""
+    translators = systems()
     return [
-        *_taught(every),
-        *_known(every),
-        *_held_out(every),
-        *constructions(),
+        *_taught(translators),
+        *_known(translators, every),
+        *_held_out(translators, every),
+        *_constructions(every),
         *(figure for language in blind_sentences.LANGUAGES for figure in blind_sentences.figures(language)),
-        *_signed(every),
+        *_signed(translators),
         *_speed(),
     ]
 
@@ -75,8 +75,8 @@ def _taught(systems: Mapping[str, System]) -> Iterable[Figure]:
         yield Figure(f"training pairs: the paper's {len(pairs)}, {what}: exact", _row(right))
 
 
-def _known(systems: Mapping[str, System]) -> Iterable[Figure]:
-    sentences = judged("known")
+def _known(systems: Mapping[str, System], every: int) -> Iterable[Figure]:
+    sentences = judged("known")[::every]
     counts = [len(accepted) for _, accepted in sentences]
     right = {
         name: share(sum(system(spanish) in accepted for spanish, accepted in sentences), len(sentences))
@@ -86,19 +86,19 @@ def _known(systems: Mapping[str, System]) -> Iterable[Figure]:
     yield Figure(f"{len(sentences)} known sentences: accepted (95 % interval), {accepts}", _row(right))
 
 
-def _held_out(systems: Mapping[str, System]) -> Iterable[Figure]:
+def _held_out(systems: Mapping[str, System], every: int) -> Iterable[Figure]:
     parts = _generated(hold_out_constructions=False)
     for part, pairs in sorted(parts.items()):
-        yield from _exact(part, pairs, systems)
+        yield from _exact(part, pairs[::every], systems)
 
 
-def constructions() -> Iterable[Figure]:
+def _constructions(every: int) -> Iterable[Figure]:
     """Of a model that was trained without them, if there is one."""
     what = f"generated, {_PARTS['test_constructions']}"
     if not (_WITHOUT_CONSTRUCTIONS / "pointer.safetensors").is_file():
         yield Figure(what, "not measured: train that model first, see the translator's README")
         return
-    pairs = _generated(hold_out_constructions=True)["test_constructions"]
+    pairs = _generated(hold_out_constructions=True)["test_constructions"][::every]
     others = systems(Translator.load(directory=_WITHOUT_CONSTRUCTIONS))
     yield from _exact("test_constructions", pairs, others)
     for construction, names in _generator().grammar.constructions.items():
