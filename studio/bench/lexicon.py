@@ -42,13 +42,13 @@ def measure(sentences: int = 500, every: int = 1) -> list[Figure]:
 
     Args:
         sentences: So many random ones are planned.
-        every: Each so manieth entry is judged.
+        every: Each so manieth entry is planned and judged.
     """
     lut = Lut.open(default_lut_directory())
     words = [sign for sign in lut.values() if sign.kind == "lexical"]
     return [
         _standings(words),
-        *_stretches(lut, words),
+        *_stretches(lut, words[::every]),
         _refusals(sentences),
         *(_errors(words, name) for name in _ERRORS),
         _violations(list(lut.glosses())[::every]),

@@ -87,9 +87,9 @@ def _known(systems: Mapping[str, System], every: int) -> Iterable[Figure]:
 
 
 def _held_out(systems: Mapping[str, System], every: int) -> Iterable[Figure]:
-    parts = _generated(hold_out_constructions=False)
+    parts = _generated(_GENERATED // every, hold_out_constructions=False)
     for part, pairs in sorted(parts.items()):
-        yield from _exact(part, pairs[::every], systems)
+        yield from _exact(part, pairs, systems)
 
 
 def _constructions(every: int) -> Iterable[Figure]:
@@ -98,7 +98,7 @@ def _constructions(every: int) -> Iterable[Figure]:
     if not (_WITHOUT_CONSTRUCTIONS / "pointer.safetensors").is_file():
         yield Figure(what, "not measured: train that model first, see the translator's README")
         return
-    pairs = _generated(hold_out_constructions=True)["test_constructions"][::every]
+    pairs = _generated(_GENERATED // every, hold_out_constructions=True)["test_constructions"]
     others = systems(Translator.load(directory=_WITHOUT_CONSTRUCTIONS))
     yield from _exact("test_constructions", pairs, others)
     for construction, names in _generator().grammar.constructions.items():
@@ -122,10 +122,10 @@ def _generator() -> Generator:
     return Generator.load(data_file("grammar"), Morphology.load())
 
 
-def _generated(*, hold_out_constructions: bool) -> Mapping[str, list[Pair]]:
-    """Sentences of each part that training has not seen, by split."""
+def _generated(count: int, *, hold_out_constructions: bool) -> Mapping[str, list[Pair]]:
+    """Sentences of each part that training has not seen, of so many that are generated, by split."""
     parts: defaultdict[str, list[Pair]] = defaultdict(list)
-    for pair in _generator().pairs(_GENERATED, seed=2, hold_out_constructions=hold_out_constructions):
+    for pair in _generator().pairs(count, seed=2, hold_out_constructions=hold_out_constructions):
         if pair.split.startswith("test"):
             parts[pair.split].append(pair)
     return parts
