@@ -20,6 +20,7 @@ from teo_description.robot import Robot
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
 from teo_signs.look_up_table import Lut, default_lut_directory
+from teo_sim_driver import MotionState
 from teo_sim_driver.parameters import DEFAULT_FOLLOWING_ERROR
 from teo_sim_driver.plants.physics import PhysicsPlant
 
@@ -51,6 +52,9 @@ def measure(sentences: int = 50) -> list[Figure]:
 
 def _followed(plan: Plan) -> _Followed:
     follower, plant = following(plan, PERIOD), PhysicsPlant(load_humanoid())
+    start = MotionState.at_rest(plan.positions[0])
+    for duration in (3.0, 1.0):  # [s] from home, gently, and until nothing moves
+        plant.step(start, duration)
     errors, pressed = [], set()
     for step in range(1, round(plan.duration / PERIOD) + 1):
         asked = follower.step(round(step * PERIOD * _SECOND))
