@@ -5,8 +5,7 @@
 The truth is the joint's centre, from the skeleton of the rendered person. The known takes have other bodies
 and motions than those that constants were calibrated on. The held-out ones have other people, lights and
 cameras again, and are for a last look: once what was seen there has led to a change, others are to be drawn.
-The known ones are followed once more with two thirds of their depth lost, as in recordings of the original's
-authors.
+All are followed once more with two thirds of their depth lost, as in recordings of the original's authors.
 """
 
 from __future__ import annotations
@@ -38,20 +37,17 @@ _DETECTIONS = {"MediaPipe": detected, "perfect": perfect}
 
 def measure(known: int = len(KNOWN_TAKES), apart: int = len(HELD_OUT_TAKES)) -> Iterator[Figure]:
     """Errors of each part of the body on so many known takes, and on so many that were held out."""
-    takes = [take(settings, default_cache()) for settings in track(KNOWN_TAKES[:known], "known takes")]
-    for (detector, see), (name, method) in product(_DETECTIONS.items(), _METHODS.items()):
-        estimates = [method(frames, see) for frames in takes]
-        yield from _figures(f"known, 2D of {detector}, {name}", takes, estimates)
-    randoms = map(np.random.default_rng, range(len(takes)))
-    lossy = [
-        ours(frames, detected, partial(_lossy, random=random))
-        for frames, random in zip(takes, randoms, strict=True)
-    ]
-    yield from _figures(f"known, {MISSING:.0%} of the depth missing", takes, lossy)
-    takes = [take(settings, default_cache()) for settings in track(HELD_OUT_TAKES[:apart], "held-out takes")]
-    for name in ("ours", "one pixel"):
-        estimates = [_METHODS[name](frames, detected) for frames in takes]
-        yield from _figures(f"held out, {name}", takes, estimates)
+    for what, chosen in (("known", KNOWN_TAKES[:known]), ("held out", HELD_OUT_TAKES[:apart])):
+        takes = [take(settings, default_cache()) for settings in track(chosen, f"{what} takes")]
+        for (detector, see), (name, method) in product(_DETECTIONS.items(), _METHODS.items()):
+            estimates = [method(frames, see) for frames in takes]
+            yield from _figures(f"{what}, 2D of {detector}, {name}", takes, estimates)
+        randoms = map(np.random.default_rng, range(len(takes)))
+        estimates = [
+            ours(frames, detected, partial(_lossy, random=random))
+            for frames, random in zip(takes, randoms, strict=True)
+        ]
+        yield from _figures(f"{what}, {MISSING:.0%} of the depth missing", takes, estimates)
 
 
 def _lossy(depth: DepthArray, random: np.random.Generator) -> DepthArray:
