@@ -44,7 +44,7 @@ class BenchNode(Node):
             self.spin_once(min(left, 0.05))
         return bool(condition())
 
-    def wait_for(self, what: str, condition: Callable[[], object], most: float = 60.0) -> None:
+    def wait_for(self, what: str, condition: Callable[[], object], most: float = 180.0) -> None:
         """Spin until a condition holds.
 
         Raises:
