@@ -10,8 +10,8 @@ import os
 from collections import Counter
 
 import numpy as np
-from executed_motion import STEP, ContactJudge, judged
 
+from executed_motion import STEP, ContactJudge, judged
 from report import Figure
 from teo_description.robot import Robot
 from teo_motion.planner import Planner

@@ -13,9 +13,9 @@ import time
 from typing import NamedTuple
 
 import numpy as np
-from executed_motion import Reached, judged
 from made_signs import random_table
 
+from executed_motion import Reached, judged
 from report import Figure, percentiles
 from signs.random_signs import random_tokens
 from teo_description.robot import Robot

@@ -19,7 +19,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]  # ships no types
 
 from accuracy.people import random_people
@@ -27,6 +26,7 @@ from report import Figure, percentiles, share
 from signs.performed import EARLIER, Draw, performed, pictured
 from teo_common.arrays import Array
 from teo_description.robot import Robot
+from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 from teo_sign_authoring.notation.performance import performance
 from teo_sign_authoring.notation.score_schema import Score
 from teo_sign_capture.lifting.clip import lift_clip

@@ -14,13 +14,13 @@ from typing import NamedTuple
 
 import numpy as np
 from scipy.spatial.transform import Rotation
-from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, joint_limits
 
 from report import Figure, spread
 from signs.performed import script_track
 from teo_common.arrays import Array
 from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
+from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_sign_capture.recordings.skeleton_bag import read_skeletons
 from teo_sign_capture.retarget.arm_kinematics import mirrored
 from teo_sign_capture.retarget.body_map import body_boxes, on_skin

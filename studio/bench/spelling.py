@@ -18,7 +18,6 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from teo_names import COMMANDED_JOINTS
 
 from planning import as_driven
 from report import Figure
@@ -29,6 +28,7 @@ from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
 from teo_motion.sentence.posture_choice import choose_postures
 from teo_motion.trajectory.limits import MotionLimits
+from teo_names import COMMANDED_JOINTS
 from teo_sign_translator.data_files import data_file
 from teo_signs.errors import PlanError
 from teo_signs.lexicon import Lexicon

@@ -13,17 +13,17 @@ from typing import NamedTuple
 
 import mujoco
 import numpy as np
-from driver_messages import send
 from numpy.typing import NDArray
-from queue_world import World
-from teo_names import COMMANDED_JOINTS, HOME, joint_limits, urdf_text
 from trajectory_msgs.msg import JointTrajectory
 
+from driver_messages import send
+from queue_world import World
 from teo_common.arrays import Array
 from teo_description.humanoid import load_humanoid
 from teo_lut_executor.execution.events import StopReady, TrajectoryReady
 from teo_lut_executor.node.messages import to_stop, to_trajectory
 from teo_motion.sentence.plan import Plan
+from teo_names import COMMANDED_JOINTS, HOME, joint_limits, urdf_text
 from teo_sim_driver.joint_follower import JointFollower
 
 STEP = 0.001  # [s] between two positions that are looked at

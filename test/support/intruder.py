@@ -18,9 +18,10 @@ from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
-from teo_names import COMMANDED_JOINTS, HOME
 from teo_sign_msgs.msg import SignSentence, SignToken
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+
+from teo_names import COMMANDED_JOINTS, HOME
 
 TURN = 0.2  # [rad] of the trunk
 PLACES = ("", "plain/")

@@ -12,10 +12,10 @@ from typing import get_args
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 
 from teo_description.humanoid import DEFAULT_ROBOT, SIDES, Humanoid, load_humanoid
 from teo_motion.sentence.plan import Plan
+from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 from teo_signs.sign import Sign
 from teo_signs.sign_file import save_sign
 from teo_signs.sign_schema import Kind, Provenance

@@ -7,7 +7,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 
 import numpy as np
-from teo_names import COMMANDED_JOINTS
 
 from teo_description.humanoid import load_humanoid
 from teo_lut_executor.execution.events import (
@@ -29,6 +28,7 @@ from teo_lut_executor.execution.queue import ExecutionQueue
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
 from teo_motion.trajectory.ruckig_segment import State
+from teo_names import COMMANDED_JOINTS
 from teo_signs.errors import PlanError
 from teo_signs.sign import Sign
 from teo_signs.tokens import parse_printed

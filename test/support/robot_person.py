@@ -5,8 +5,8 @@
 from __future__ import annotations
 
 import numpy as np
-from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 
+from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 from teo_sign_capture.tracks.body_axes import in_body_axes
 from teo_sign_capture.tracks.skeleton_track import Keypoints
 

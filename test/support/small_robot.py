@@ -16,11 +16,11 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState
-from teo_names import COMMANDED_JOINTS, HOME
 from teo_sign_msgs.msg import ExecutorStatus, SignSentence, SignToken
 from trajectory_msgs.msg import JointTrajectory
 
 from teo_lut_executor.node.executor_node import ExecutorNode
+from teo_names import COMMANDED_JOINTS, HOME
 from teo_signs.tokens import parse_printed
 
 RATE = 100.0  # joint states a second [Hz]

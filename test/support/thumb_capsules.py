@@ -8,10 +8,10 @@ from collections.abc import Iterator, Sequence
 
 import coal
 import numpy as np
-from teo_names import LEFT_HAND, RIGHT_HAND
 
 from teo_common.arrays import Array
 from teo_description.robot import Robot
+from teo_names import LEFT_HAND, RIGHT_HAND
 
 # Radii of the collision model's rods, from the knuckle on [m]: data/shapes.csv, typed once more.
 FINGER_RADII, THUMB_RADII = (0.009, 0.0085, 0.008), (0.0095, 0.009)

@@ -17,12 +17,12 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
-from teo_names import ALL_JOINTS, COMMANDED_JOINTS, joint_limits
 from teo_sign_msgs.msg import ExecutorStatus, SignSentence, TranslationStatus
 
 from teo_bringup.graph import SIGNING
 from teo_common.node_process import run_node
 from teo_description.humanoid import load_humanoid
+from teo_names import ALL_JOINTS, COMMANDED_JOINTS, joint_limits
 
 _AT_REST = 0.02  # [rad]
 _PERIOD = 0.2  # [s]

@@ -8,9 +8,9 @@ from collections.abc import Mapping
 
 import numpy as np
 import pytest
+
 from executed_motion import executed, judged
 from queue_world import World
-
 from teo_lut_executor.execution.events import Preemption, QueueSettings
 from teo_signs.sign import Sign
 

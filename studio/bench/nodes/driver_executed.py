@@ -16,9 +16,9 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
-from executed_motion import NEAR, STEP, ContactJudge, Reached, following, judged
 from rich.progress import track
 
+from executed_motion import NEAR, STEP, ContactJudge, Reached, following, judged
 from kept import kept_folder
 from report import Figure
 from signs.random_signs import random_tokens

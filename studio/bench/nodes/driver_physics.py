@@ -8,17 +8,17 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
-from executed_motion import following, one_hand
 from numpy.typing import NDArray
 from rich.progress import track
-from teo_names import BODY_JOINTS, COMMANDED_JOINTS
 
+from executed_motion import following, one_hand
 from report import Figure
 from signs.random_signs import random_tokens
 from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
+from teo_names import BODY_JOINTS, COMMANDED_JOINTS
 from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_sim_driver import MotionState
 from teo_sim_driver.parameters import DEFAULT_FOLLOWING_ERROR

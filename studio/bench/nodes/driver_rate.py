@@ -9,17 +9,17 @@ from functools import partial
 
 import numpy as np
 from control_msgs.action import FollowJointTrajectory
-from driver_messages import trajectory_message
 from numpy.typing import NDArray
 from rclpy.action import ActionClient
 from rclpy.publisher import Publisher
 from rclpy.serialization import serialize_message
 from sensor_msgs.msg import JointState
-from teo_names import COMMANDED_JOINTS, HOME, joint_limits
 from trajectory_msgs.msg import JointTrajectory
 
+from driver_messages import trajectory_message
 from nodes.bench_node import BenchNode, bench_graph, cpu_seconds, seconds
 from report import Figure, percentiles
+from teo_names import COMMANDED_JOINTS, HOME, joint_limits
 from teo_sim_driver import JointFollower, check
 
 PERIOD = 0.01  # [s]

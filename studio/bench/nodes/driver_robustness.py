@@ -10,13 +10,13 @@ from collections import Counter
 from collections.abc import Callable
 
 import numpy as np
+from rclpy.serialization import serialize_message
+
 from driver_messages import send
 from executed_motion import Reached, judged
-from rclpy.serialization import serialize_message
-from teo_names import COMMANDED_JOINTS, LEG_JOINTS, joint_limits
-
 from nodes.driver_rate import PERIOD, SECOND, home, wave
 from report import Figure
+from teo_names import COMMANDED_JOINTS, LEG_JOINTS, joint_limits
 from teo_sim_driver import JointFollower, Mode, Refusal, Rules, TrajectoryError
 from teo_sim_driver.checking.intake import MOST_WAITING, Intake
 

@@ -10,17 +10,17 @@ where joint states showed them.
 from __future__ import annotations
 
 import numpy as np
+from rich.progress import track
+
 from driver_messages import send
 from executed_motion import Reached, executed, following, judged
 from queue_world import World
-from rich.progress import track
-from teo_names import COMMANDED_JOINTS
-
 from report import Figure
 from teo_lut_executor.node.messages import to_stop
 from teo_motion.planner import Planner
 from teo_motion.trajectory.ruckig_segment import State
 from teo_motion.trajectory.stopping import stop
+from teo_names import COMMANDED_JOINTS
 from teo_signs.errors import PlanError
 from teo_signs.look_up_table import Lut
 from teo_signs.tokens import parse_printed

@@ -20,7 +20,6 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
-from teo_names import COMMANDED_JOINTS, HOME
 from teo_sign_msgs.msg import ExecutorStatus
 from trajectory_msgs.msg import JointTrajectory
 
@@ -28,6 +27,7 @@ from nodes.bench_node import BenchNode, bench_graph, seconds
 from report import Figure, percentiles
 from teo_bringup.graph import Graph
 from teo_description.humanoid import load_humanoid
+from teo_names import COMMANDED_JOINTS, HOME
 
 _TEXTS = (
     "¿Qué tal?",
