@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-# make setup | wheelhouse | run | demo TEXT="..." | test | slow | commands | lint | bench | docs; run and demo take ROBOT=gr1t2, LANGUAGE=ase, VIEW=1
+# make setup | wheelhouse | run | demo TEXT="..." | test | slow | commands | lint | bench | docs; run and demo take ROBOT=gr1t2, LANGUAGE=ase, VIEW=1; bench takes BENCH=NAME
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
 TEXT ?= Hola, me llamo Ana. ¿Qué tal?
@@ -59,7 +59,7 @@ lint: setup ## style, types
 docs: setup ## the pages of docs/ and of the API, in out/docs/
 	@$(ENV) NO_MKDOCS_2_WARNING=1 mkdocs build --strict --quiet
 
-bench: setup ## the figures of docs/figures.md
-	@$(ENV) PYTHONPATH="$$PWD/scripts:$$PWD/test/support:$$PYTHONPATH" python studio/bench/run.py
+bench: setup ## the figures of docs/figures.md; BENCH="NAME --option 1": those of one bench
+	@$(ENV) PYTHONPATH="$$PWD/scripts:$$PWD/test/support:$$PYTHONPATH" python studio/bench/run.py $(BENCH)
 
 export TEXT OUT ROBOT LANGUAGE

@@ -2,81 +2,98 @@
 # SPDX-License-Identifier: Apache-2.0
 """How many of the blind sentences are translated as accepted: measured once for each model that is released.
 
-`python bench/blind_sentences.py` shows the sentences to the shipped model and the baselines and keeps the
-figures, not the translations, in test/data/blind.json, by the hash of the model's weights. A model that is
-there is not run again: what is looked at twice is known.
+Run alone, it shows the blind sentences of a language to its shipped model and to the baselines, unless that
+model has seen them. Figures, not translations, are kept in test/data/blind.json by the hash of the model's
+weights, and printed from then on: what is looked at twice is known.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterable
+from collections.abc import Iterator, Mapping
 from statistics import median
 from typing import Any
 
-from glosses.measures import fewest_edits
-from glosses.systems import SENTENCES, judged, systems
+from glosses.measures import Glosses, fewest_edits, overlap
+from glosses.systems import SENTENCES, Judged, System, english_systems, judged, published, systems
 from report import Figure, share
-from teo_sign_translator.model_files import models_directory
+from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 
 _RECORD = SENTENCES / "blind.json"
-_SENTENCES = SENTENCES / "blind.txt"
+LANGUAGES = (DEFAULT_LANGUAGE, "ase")
 
 
-def figures() -> Iterable[Figure]:
-    """What was measured of the shipped model."""
-    if not _SENTENCES.is_file():
-        yield Figure("blind sentences", "used up: test/data/README.md says who writes new ones")
-        return
-    results = _recorded().get(_shipped())
-    if results is None:
-        yield Figure("blind sentences", "not measured for this model: python bench/blind_sentences.py")
-        return
-    total = results["sentences"]
-    counts = [len(accepted) for _, accepted in judged("blind")]
-    what = f"{total} blind sentences"
-    accepts = f"accepted for each: median {median(counts):.0f}, most {max(counts)}"
-    right = ", ".join(f"{name} {share(each['accepted'], total)}" for name, each in results["systems"].items())
-    yield Figure(f"{what}: accepted (95 % interval), {accepts}", right)
-    edits = ", ".join(f"{name} {each['gloss_errors']:.1f}" for name, each in results["systems"].items())
-    yield Figure(f"{what}: glosses to edit for the nearest accepted translation [%]", edits)
-
-
-def main() -> None:
-    """Measure the shipped model, unless it has been.
-
-    Raises:
-        SystemExit: It has been measured, or there are no sentences.
-    """
-    if not _SENTENCES.is_file():
-        raise SystemExit(f"expected blind sentences in {_SENTENCES}, got no such file: they are used up")
+def measure(language: str = DEFAULT_LANGUAGE) -> list[Figure]:
+    """Figures of a language's shipped model, measured now if it has not seen the sentences."""
     record = _recorded()
-    if _shipped() in record:
-        raise SystemExit(f"the shipped model has seen the blind sentences: its figures are in {_RECORD}")
-    sentences = judged("blind")
+    kept = record.setdefault(language, {})
+    if _weights(language) not in kept:
+        every = systems() if language == DEFAULT_LANGUAGE else english_systems(language)
+        kept[_weights(language)] = _measured(_blind(language), every)
+        _RECORD.write_text(json.dumps(record, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
+    return list(figures(language))
+
+
+def figures(language: str) -> Iterator[Figure]:
+    """What was measured of a language's shipped model."""
+    what = f"{language}, blind sentences"
+    results = _recorded().get(language, {}).get(_weights(language))
+    if results is None:
+        command = f"make bench BENCH='blind_sentences --language {language}'"
+        yield Figure(what, f"not measured for this model: {command}")
+        return
+    counts = [len(accepted) for _, accepted in _blind(language)]
+    total, by_system = results["sentences"], results["systems"]
+    right = ", ".join(f"{name} {share(each['accepted'], total)}" for name, each in by_system.items())
+    accepts = f"accepted for each: median {median(counts):.0f}, most {max(counts)}"
+    yield Figure(f"{total} {what}: accepted (95 % interval), {accepts}", right)
+    edits = ", ".join(f"{name} {each['edits']:.1f}" for name, each in by_system.items())
+    yield Figure(f"{what}: glosses to edit for the nearest accepted translation, of 100", edits)
+    bags = [
+        f"{name} {each['precision']:.1f}, {each['recall']:.1f}"
+        for name, each in by_system.items()
+        if "precision" in each
+    ]
+    if bags:
+        yield Figure(f"{what}: bag precision, recall [%]", ", ".join(bags))
+
+
+def _blind(language: str) -> Judged:
+    return judged("blind") if language == DEFAULT_LANGUAGE else published(language, "blind")
+
+
+def _measured(sentences: Judged, every: Mapping[str, System]) -> dict[str, Any]:
     results: dict[str, Any] = {"sentences": len(sentences), "systems": {}}
-    for name, system in systems().items():
+    for name, system in every.items():
         got = [system(sentence) for sentence, _ in sentences]
-        right = sum(each in accepted for each, (_, accepted) in zip(got, sentences, strict=True))
-        edits = [fewest_edits(accepted, each) for each, (_, accepted) in zip(got, sentences, strict=True)]
-        wrong, glosses = (sum(column) for column in zip(*edits, strict=True))
-        results["systems"][name] = {"accepted": right, "gloss_errors": round(100 * wrong / glosses, 1)}
-    record[_shipped()] = results
-    _RECORD.write_text(json.dumps(record, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
-    for figure in figures():
-        print(f"{figure.what}: {figure.value}")
+        pairs = [(accepted, each) for (_, accepted), each in zip(sentences, got, strict=True)]
+        wrong, glosses = (
+            sum(column) for column in zip(*(fewest_edits(*pair) for pair in pairs), strict=True)
+        )
+        common = overlap([_nearest(*pair) for pair in pairs], got)
+        results["systems"][name] = {
+            "accepted": sum(each in accepted for accepted, each in pairs),
+            "edits": round(100 * wrong / glosses, 1),
+            "precision": round(100 * common.precision, 1),
+            "recall": round(100 * common.recall, 1),
+            "pairs": common.pairs,
+            "in_order": round(100 * common.in_order, 1),
+        }
+    return results
+
+
+def _nearest(translations: frozenset[Glosses], got: Glosses) -> Glosses:
+    """The translation that asks for the fewest edits; of equals the first in the alphabet."""
+    return min(sorted(translations), key=lambda each: fewest_edits([each], got)[0])
 
 
 def _recorded() -> dict[str, Any]:
-    record: dict[str, Any] = json.loads(_RECORD.read_text(encoding="utf-8")) if _RECORD.is_file() else {}
+    record: dict[str, Any] = json.loads(_RECORD.read_text(encoding="utf-8"))
     return record
 
 
-def _shipped() -> str:
+def _weights(language: str) -> str:
     """The hash of the shipped model's weights."""
-    return hashlib.sha256((models_directory() / "pointer.safetensors").read_bytes()).hexdigest()
-
-
-if __name__ == "__main__":
-    main()
+    weights = load_language(language).models / "pointer.safetensors"
+    return hashlib.sha256(weights.read_bytes()).hexdigest()

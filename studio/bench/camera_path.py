@@ -6,22 +6,18 @@ A sign's score is brought onto TEO at once (`capture_scores`) and, the long way,
 performed by the synthetic signer before a RealSense D435 at 1.5 m, found in the images, cut out, retargeted.
 What differs is the error of the camera path. Done once more with the true keypoints in place of those found
 in the images, it is the error of performing and retargeting alone; what differs between those two is the
-detector's.
+detector's. Performances are kept between runs.
 """
 
 from __future__ import annotations
 
-import argparse
 import hashlib
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
-from rich.console import Console
-from rich.progress import track as progress
-from rich.table import Table
+from rich.progress import track
 
 from kept import kept_folder
 from report import Figure
@@ -42,118 +38,75 @@ from teo_signs.sign_schema import Handedness
 from teo_synthetic_signer import Take, TakeOptions
 from teo_synthetic_signer.take.take_files import write_take
 
-FEW = ("ADIÓS", "BIEN", "GRACIAS")
 # One and two hands; at the head, the chest, in the air and on the other hand; arcs, circles, wiggles.
-MANY = (
-    *(
-        "ADIÓS",
-        "AGUA",
-        "AMIGO",
-        "AMOR",
-        "AYUDAR",
-        "BIEN",
-        "CALLE",
-        "CASA",
-        "COMER",
-        "CREER",
-        "CUANDO",
-        "DORMIR",
-    ),
-    *(
-        "ENTENDER",
-        "ESCUELA",
-        "GRACIAS",
-        "HABLAR",
-        "HACER",
-        "IR",
-        "LIBRO",
-        "MADRE",
-        "MÚSICA",
-        "PENSAR",
-        "TRABAJAR",
-    ),
-    *("TREN", "TÚ", "YO"),
+SIGNS = (
+    "ADIÓS BIEN GRACIAS AGUA AMIGO AMOR AYUDAR CALLE CASA COMER CREER CUANDO DORMIR ENTENDER ESCUELA HABLAR "
+    "HACER IR LIBRO MADRE MÚSICA PENSAR TRABAJAR TREN TÚ YO"
 )
 _RATE = 15.0  # [Hz] of the images
 _STEP = 0.02  # [s] between samples of the score's own motion
 _PARTS = ("wrist's place (mm)", "palm (deg)", "fingers (deg)", "flexion (deg)")
+_BODY = "woman_average"
+# What is compared.
 _WAYS = {
-    "camera": "camera path against the score itself",
-    "truth": "true keypoints against the score itself",
-    "detector": "camera path against true keypoints",
+    "camera path against the score itself": ("direct", "seen"),
+    "true keypoints against the score itself": ("direct", "true"),
+    "camera path against true keypoints": ("true", "seen"),
 }
 _PALM = 0.09  # [m] from the middle of TEO's palm back to its wrist
 _FINGERS = ("Index", "Middle", "Ring", "Pinky")
 
 
-@dataclass(frozen=True, kw_only=True)
-class Result:
-    """One sign; each way's differences are medians over its time, of the worse hand. Shape (4,), by `_PARTS`.
-
-    Attributes:
-        gloss: Its name.
-        camera: The camera path against the score itself.
-        truth: True keypoints against the score itself.
-        detector: The camera path against true keypoints.
-        failed: Why some of these are not there (NaN); empty if all are.
-    """
+class _Motions(NamedTuple):
+    """A sign as it came onto TEO: `direct`, by `true` keypoints and as `seen`; and why some are not there."""
 
     gloss: str
-    camera: Array
-    truth: Array
-    detector: Array
-    failed: str = ""
+    ways: dict[str, RobotMotion]
+    failed: str
 
 
-def evaluate(glosses: Sequence[str], folder: Path, *, body: str = "woman_average") -> list[Result]:
-    """Bring signs onto TEO in three ways and compare them.
+def measure(signs: int = 3) -> list[Figure]:
+    """Compare the first signs: a minute for each at first, later they are found on disk."""
+    robot = Robot.load()
+    made = [_motions(robot, gloss) for gloss in track(SIGNS.split()[:signs], "signs")]
+    figures = []
+    for about, (first, second) in _WAYS.items():
+        pairs = [one for one in made if {first, second} <= one.ways.keys()]
+        errors = np.array([_differences(robot, one.ways[first], one.ways[second]) for one in pairs])
+        for part, column in zip(_PARTS, errors.reshape(-1, len(_PARTS)).T, strict=True):
+            if pairs:
+                worst = pairs[int(np.argmax(column))].gloss
+                value = f"median {np.median(column):.0f}, worst {column.max():.0f} ({worst})"
+                figures.append(Figure(f"{about}, {part}, {len(pairs)} signs", value))
+    return figures + [Figure(f"{one.gloss}: not captured", one.failed) for one in made if one.failed]
 
-    Args:
-        glosses: Names of scores.
-        folder: Keeps recordings and what was found in them between runs.
-        body: Who performs.
-    """
-    robot, scores = Robot.load(), default_scores_directory()
-    return [_result(robot, read_score(scores / f"{gloss}.yaml"), folder, body) for gloss in glosses]
 
-
-def _result(robot: Robot, score: Score, folder: Path, body: str) -> Result:
+def _motions(robot: Robot, gloss: str) -> _Motions:
+    score = read_score(default_scores_directory() / f"{gloss}.yaml")
     handedness: Handedness = "right" if score.hands == "right" else "both"
-    motions: dict[str, RobotMotion] = {}
-    failed = ""
+    found = _Motions(gloss, {}, "")
     try:
-        motions["direct"] = _sampled(score_sign(robot, score))
-        recording = open_recording(_performed(score, folder, body))
+        found.ways["direct"] = _sampled(score_sign(robot, score))
+        folder = kept_folder("camera_path", "teo_synthetic_signer", "teo_skeleton_retriever")
+        recording = open_recording(_performed(score, folder))
         for name, topic in (("true", "/truth/skeletons"), ("seen", None)):
             person, _ = track_of(recording, cache=folder, topic=topic)
-            motions[name] = capture_take(robot, person, handedness=handedness).motion
+            found.ways[name] = capture_take(robot, person, handedness=handedness).motion
     except LutError as error:
-        failed = str(error)
-
-    def differences(first: str, second: str) -> Array:
-        if first in motions and second in motions:
-            return _differences(robot, motions[first], motions[second])
-        return np.full(len(_PARTS), np.nan)
-
-    return Result(
-        gloss=score.gloss,
-        camera=differences("direct", "seen"),
-        truth=differences("direct", "true"),
-        detector=differences("true", "seen"),
-        failed=failed,
-    )
+        return found._replace(failed=str(error))
+    return found
 
 
-def _performed(score: Score, folder: Path, body: str) -> Path:
+def _performed(score: Score, folder: Path) -> Path:
     """The recording of a score's performance, from disk if it is there."""
     text = performance(score).text
-    digest = hashlib.sha256(f"{body} {_RATE} {text}".encode()).hexdigest()[:12]
+    digest = hashlib.sha256(f"{_BODY} {_RATE} {text}".encode()).hexdigest()[:12]
     bag = folder / f"{score.gloss}-{digest}"
     if not bag.exists():
         script = bag.with_suffix(".yaml")
         folder.mkdir(parents=True, exist_ok=True)
         script.write_text(text, "utf-8")
-        take = Take(TakeOptions(script=str(script), body=body, sensor="d435", distance=1.5, rate=_RATE))
+        take = Take(TakeOptions(script=str(script), body=_BODY, sensor="d435", distance=1.5, rate=_RATE))
         for _ in write_take((take.frame(index) for index in range(len(take))), bag):
             pass
     return bag
@@ -219,58 +172,3 @@ def _angles(first: Array, second: Array) -> Array:
     cosines = (first * second).sum(axis=1)
     angles: Array = np.arccos(np.clip(cosines, -1.0, 1.0))
     return angles
-
-
-def default_cache() -> Path:
-    """Give the folder that performances are kept in unless another is named."""
-    return kept_folder("camera_path", "teo_synthetic_signer", "teo_skeleton_retriever")
-
-
-def measure() -> list[Figure]:
-    """Compare a few signs: the first run takes a minute, later ones find the performances on disk."""
-    return figures(evaluate(FEW, default_cache()))
-
-
-def figures(results: Sequence[Result]) -> list[Figure]:
-    """Put medians and the worst sign of each way into words."""
-    given = []
-    for way, about in _WAYS.items():
-        made = [result for result in results if np.isfinite(getattr(result, way)).all()]
-        errors = np.array([getattr(result, way) for result in made]).reshape(-1, len(_PARTS))
-        for part, column in zip(_PARTS, errors.T, strict=True):
-            if made:
-                worst = made[int(np.argmax(column))].gloss
-                value = f"median {np.median(column):.0f}, worst {column.max():.0f} ({worst})"
-                given.append(Figure(f"{about}, {part}, {len(made)} signs", value))
-    given += [Figure(f"{result.gloss}: not captured", result.failed) for result in results if result.failed]
-    return given
-
-
-def main() -> None:
-    """Print a table of the signs, then the figures."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("--only", action="append", help="a gloss; may be given again")
-    parser.add_argument("--all", action="store_true", help="every sign that has a score: an hour")
-    parser.add_argument("--body", default="woman_average", help="who performs")
-    parser.add_argument("--cache", type=Path, default=default_cache(), help="keeps recordings between runs")
-    options = parser.parse_args()
-    every = sorted(path.stem for path in default_scores_directory().glob("*.yaml"))
-    glosses = options.only or (every if options.all else MANY)
-    console = Console()
-    results = []
-    for gloss in progress(glosses, "signs", console=Console(stderr=True)):
-        results += evaluate([gloss], options.cache, body=options.body)
-    about = ", ".join(_PARTS)
-    table = Table("sign", *_WAYS.values(), title=f"Median over the sign of {about}")
-    for result in results:
-        cells = (" ".join(f"{value:4.0f}" for value in getattr(result, way)) for way in _WAYS)
-        table.add_row(result.gloss, *cells)
-    console.print(table)
-    for figure in figures(results):
-        console.print(f"{figure.what}: {figure.value}", highlight=False, soft_wrap=True, markup=False)
-
-
-if __name__ == "__main__":
-    main()

@@ -11,8 +11,8 @@ from collections import Counter
 
 import numpy as np
 
+from executed_motion import STEP, ContactJudge, judged
 from report import Figure
-from signs.second_look import SecondLook
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan, sample_at
@@ -23,14 +23,11 @@ from teo_signs.sign import Sign
 from teo_signs.sign_schema import STANDINGS
 from teo_signs.tokens import Kind, Token
 
-SENTENCES = 500
 _SIGNS = 3
 _WORST = 10
 _BATCH = 25  # sentences that one process plans in a row
-_STEP = 0.001  # [s] between two looks at a planned motion's limits
-_LOOK = 10  # shapes are looked at in every so manieth: a hand goes a few millimetres in 10 ms
+_LOOK = 10  # contacts are looked at in every so manieth position: a hand goes a few millimetres in 10 ms
 _ONE_MOTION = 1e-6  # distances that differ by less are those of one motion under two names
-_KINDS = {"lexical": Kind.LEXICAL, "letter": Kind.LETTER, "number": Kind.NUMBER}
 
 _ERRORS = {
     "place": ("place_error_mm", "mm"),
@@ -39,16 +36,21 @@ _ERRORS = {
 }
 
 
-def measure() -> list[Figure]:
-    """Figures of the package's table."""
+def measure(sentences: int = 500, every: int = 1) -> list[Figure]:
+    """Figures of the package's table.
+
+    Args:
+        sentences: So many random ones are planned.
+        every: Each so manieth entry is planned and judged.
+    """
     lut = Lut.open(default_lut_directory())
     words = [sign for sign in lut.values() if sign.kind == "lexical"]
     return [
         _standings(words),
-        *_stretches(lut, words),
-        _refusals(),
+        *_stretches(lut, words[::every]),
+        _refusals(sentences),
         *(_errors(words, name) for name in _ERRORS),
-        _violations(lut),
+        _violations(list(lut.glosses())[::every]),
     ]
 
 
@@ -94,15 +96,15 @@ def _played(word: Sign, plan: Plan) -> Sign:
     return dataclasses.replace(word, times=times, knots=knots, alternatives=())
 
 
-def _refusals() -> Figure:
-    batches = range(0, SENTENCES, _BATCH)
+def _refusals(sentences: int) -> Figure:
+    batches = range(0, sentences, _BATCH)
     with multiprocessing.get_context("spawn").Pool(os.cpu_count()) as pool:
         found = pool.map(_refused_of_batch, batches, chunksize=1)
     refused = [sentence for batch in found for sentence in batch]
     named = ": " + "; ".join(refused) if refused else ""
     return Figure(
-        f"refused for self-collision, of {SENTENCES} random sentences of {_SIGNS} words",
-        f"{len(refused)} ({100.0 * len(refused) / SENTENCES:.1f} %){named}",
+        f"refused for self-collision, of {sentences} random sentences of {_SIGNS} words",
+        f"{len(refused)} ({100.0 * len(refused) / sentences:.1f} %){named}",
     )
 
 
@@ -134,9 +136,8 @@ def _errors(words: list[Sign], name: str) -> Figure:
     )
 
 
-def _violations(lut: Lut) -> Figure:
-    """Every entry as it is planned, looked at every millisecond by other code than made it."""
-    glosses = list(lut.glosses())
+def _violations(glosses: list[str]) -> Figure:
+    """Every entry as it is planned, judged every millisecond by other code than made it."""
     batches = [glosses[start : start + _BATCH] for start in range(0, len(glosses), _BATCH)]
     with multiprocessing.get_context("spawn").Pool(os.cpu_count()) as pool:
         found = [bad for batch in pool.map(_bad_of_batch, batches, chunksize=1) for bad in batch]
@@ -149,16 +150,17 @@ def _violations(lut: Lut) -> Figure:
 def _bad_of_batch(glosses: list[str]) -> list[str]:
     """Entries of a batch with something wrong, and what."""
     lut = Lut.open(default_lut_directory())
-    planner, second_look = Planner(lut, robot=Robot.load(), least_standing="sketched"), SecondLook()
+    planner, contacts = Planner(lut, robot=Robot.load(), least_standing="sketched"), ContactJudge()
     bad: list[str] = []
     for gloss in glosses:
         try:
-            plan = planner.plan([Token(gloss=gloss, kind=_KINDS[lut[gloss].kind])])
+            plan = planner.plan([Token(gloss=gloss, kind=Kind[lut[gloss].kind.upper()])])
         except PlanError as error:
             bad.append(f"{gloss} is refused: {error}")
             continue
-        times = np.arange(0.0, plan.duration, _STEP)
-        violation = second_look.first_violation(times, sample_at(plan.motions, times).positions, look=_LOOK)
-        if violation is not None:
-            bad.append(f"{gloss} {violation.what} at {violation.time:.2f} s")
+        positions = sample_at(plan.motions, np.arange(0.0, plan.duration, STEP)).positions
+        distance, parts = contacts.nearest(positions[::_LOOK])
+        bad += [f"{gloss} over its limit of {limit}" for limit in judged(positions).broken()]
+        if distance < 0.0:
+            bad.append(f"{gloss}: {parts}, {-1e3 * distance:.1f} mm in each other")
     return bad

@@ -2,77 +2,49 @@
 # SPDX-License-Identifier: Apache-2.0
 """How well a clip that one camera took is lifted into space, against people who are known exactly.
 
-The keypoints of the synthetic signer are laid into a picture, with the noise of a good detector, and lifted
-again. The person's size is not in the picture: what is left once it is put right is given beside. Written
-signs, performed, tell whether hands in the air are taken for hands on the body (`signs/touches.py`).
+The person's size is not in the picture: what is left once it is put right is given beside.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import replace
-from functools import cache
 
 import numpy as np
 
-from report import Figure
-from signs import score_clips, touches
-from signs.pictured import pictured
-from signs.signer_tracks import signer_track
+from report import Figure, spread
+from signs.performed import pictured, script_track
 from teo_common.arrays import Array
-from teo_description.robot import Robot
-from teo_sign_capture.recordings.recording import lifted_track
+from teo_sign_capture.lifting.clip import lift_clip
+from teo_sign_capture.tracks.hand_shape import palm_axes
 from teo_sign_capture.tracks.skeleton_track import ELBOW, SHOULDER, WRIST, SkeletonTrack
-from teo_skeleton_retriever.lifting.hand_axes import palm_axes
 
 SCRIPTS = ("signing", "face", "crossing", "spelling")
 BODIES = ("woman_average", "man_average", "man_tall")
-
-_RATE = 25.0  # [Hz]
 _NEAR = 2.0  # [m] from a camera in whose picture hands are larger than shoulders
 _RAISED = -0.36  # [m] below the shoulders: lower wrists hang
 
 
-def measure() -> list[Figure]:
+def measure(bodies: int = len(BODIES)) -> list[Figure]:
     """Errors of raised arms and of hands: from afar, from near, and without a guess of depth."""
-    views = {
-        "from afar": (math.inf, True),
-        f"from {_NEAR:g} m": (_NEAR, True),
-        "from afar, no depth in the hands": (math.inf, False),
-    }
-    robot = Robot.load()
-    return [
-        *(figure for name, view in views.items() for figure in _figures(name, *view)),
-        *(
-            figure
-            for name, draw in score_clips.DRAWS.items()
-            for figure in touches.measure(robot, name, draw)
-        ),
-    ]
-
-
-def _figures(name: str, distance: float, depth: bool) -> list[Figure]:
-    found = [
-        _errors(track, lifted_track(pictured(track, distance=distance, depth=depth)))
-        for track in (_track(script, body) for script in SCRIPTS for body in BODIES)
-    ]
-    elbows, wrists, sized, palms = (np.concatenate(errors) for errors in zip(*found, strict=True))
-    arms = ", ".join(
-        f"{what} {1000.0 * np.median(away):.0f} ({1000.0 * np.percentile(away, 90.0):.0f})"
-        for what, away in (("elbow", elbows), ("wrist", wrists), ("wrist at the right size", sized))
-    )
-    angles = np.degrees(palms)
-    return [
-        Figure(f"{name}: raised arms, median (9 of 10 below)", f"{arms} mm"),
-        Figure(
-            f"{name}: palm's direction", f"{np.median(angles):.0f} ({np.percentile(angles, 90.0):.0f}) deg"
-        ),
-    ]
-
-
-@cache
-def _track(script: str, body: str) -> SkeletonTrack:
-    return signer_track(script, body, _RATE)
+    tracks = [script_track(script, body) for script in SCRIPTS for body in BODIES[:bodies]]
+    figures = []
+    for name, distance, depth in (
+        ("from afar", math.inf, True),
+        (f"from {_NEAR:g} m", _NEAR, True),
+        ("from afar, no depth in the hands", math.inf, False),
+    ):
+        found = [
+            _errors(track, lift_clip(pictured(track, distance=distance, depth=depth))) for track in tracks
+        ]
+        elbows, wrists, sized, palms = (np.concatenate(errors) for errors in zip(*found, strict=True))
+        figures += [
+            Figure(f"{name}: raised elbows", spread(1000.0 * elbows, "mm")),
+            Figure(f"{name}: raised wrists", spread(1000.0 * wrists, "mm")),
+            Figure(f"{name}: raised wrists at the right size", spread(1000.0 * sized, "mm")),
+            Figure(f"{name}: palm's direction", spread(np.degrees(palms), "deg")),
+        ]
+    return figures
 
 
 def _errors(truth: SkeletonTrack, lifted: SkeletonTrack) -> tuple[Array, Array, Array, Array]:
@@ -105,8 +77,3 @@ def _size(track: SkeletonTrack) -> float:
     points = track.body.positions
     chain = (SHOULDER["left"], SHOULDER["right"], ELBOW["right"], WRIST["right"])
     return float(np.linalg.norm(np.diff(points[:, chain], axis=1), axis=2).sum(axis=1).mean())
-
-
-if __name__ == "__main__":
-    for figure in measure():
-        print(f"{figure.what}: {figure.value}")

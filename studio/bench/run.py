@@ -1,94 +1,63 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Measure everything, one bench after the other, and print a table of each."""
+"""Measure everything, one bench after the other, and print a table of each; or one bench alone.
+
+`run.py NAME` runs one of the modules beside it, `run.py NAME --help` says with which options.
+"""
 
 from __future__ import annotations
 
+import argparse
+import inspect
 import platform
+import sys
+from importlib import import_module
 
 from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
-import camera_path
-import clips
-import letters
-import lexicon
-import lifting
-import planning
-import recognition
-import retargeting
-import retriever_accuracy
-import retriever_node
-import retriever_robustness
-import retriever_unseen
-import spelling
-import translation
-import words
-from accuracy import limbs
-from command_line import interrupts, playing, publishing_once, recording
-from nodes import (
-    console_page,
-    driver_executed,
-    driver_physics,
-    driver_rate,
-    driver_robustness,
-    kills,
-    machines,
-    stops,
-    text_to_trajectory,
-)
-from signs import robot_model, robots
-
 BENCHES = (
-    robot_model,
-    planning,
-    lexicon,
-    letters,
-    robots,
-    spelling,
-    lifting,
-    clips,
-    driver_rate,
-    driver_robustness,
-    driver_executed,
-    driver_physics,
-    console_page,
-    translation,
-    words,
-    text_to_trajectory,
-    stops,
-    kills,
-    machines,
-    limbs,
-    retargeting,
-    recognition,
-    retriever_accuracy,
-    retriever_node,
-    retriever_robustness,
-    retriever_unseen,
-    camera_path,
-    playing,
-    recording,
-    publishing_once,
-    interrupts,
+    "planning",
+    "lexicon",
+    "letters",
+    "signs.robots",
+    "signs.durations",
+    "spelling",
+    "lifting",
+    "clips",
+    "nodes.driver_rate",
+    "nodes.driver_robustness",
+    "nodes.driver_executed",
+    "nodes.driver_physics",
+    "nodes.console_page",
+    "translation",
+    "words",
+    "nodes.text_to_trajectory",
+    "nodes.stops",
+    "nodes.kills",
+    "nodes.machines",
+    "retargeting",
+    "recognition",
+    "retriever_accuracy",
+    "retriever_node",
+    "camera_path",
 )
 
 
-def main() -> None:
+def measure_all() -> None:
     """Print each bench's figures when it has them, and at the end which ones failed."""
     console = Console()
     console.print(f"{platform.machine()}, Python {platform.python_version()}")
     failed: list[str] = []
     for bench in track(BENCHES, "benches", console=console):
-        name = bench.__name__.replace(".", "/")
         try:
-            figures = bench.measure()
+            figures = list(import_module(bench).measure())
         except Exception:  # an hour of other figures must not be lost
             console.print_exception()
-            failed.append(name)
+            failed.append(bench)
             continue
-        table = Table("what", "measured", title=f"bench/{name}.py", title_justify="left")
+        table = Table("what", "measured", title=bench, title_justify="left")
         for figure in figures:
             table.add_row(figure.what, figure.value)
         console.print(table)
@@ -97,5 +66,19 @@ def main() -> None:
         raise SystemExit(1)
 
 
+def measure_one(bench: str, arguments: list[str]) -> None:
+    """Print a bench's figures; the parameters of its `measure` are its options."""
+    module = import_module(bench)
+    parser = argparse.ArgumentParser(prog=bench, description=module.__doc__)
+    for name, parameter in inspect.signature(module.measure).parameters.items():
+        default = parameter.default
+        parser.add_argument(f"--{name}", type=type(default), default=default, help=f"default: {default}")
+    for figure in module.measure(**vars(parser.parse_args(arguments))):
+        print(f"{figure.what}: {figure.value}", flush=True)
+
+
 if __name__ == "__main__":
-    main()
+    if sys.argv[1:]:
+        measure_one(sys.argv[1], sys.argv[2:])
+    else:
+        measure_all()

@@ -5,7 +5,7 @@
 A word's time is from when its first letter stands to when its last one has been held, over its letters. The
 baseline in the same run is the alphabet as captured, letter by letter, each held as long as its recording
 holds it. The bound is the least time of the slowest joint from letter to letter, with the same strokes and
-holds. `python bench/spelling.py` prints the figures.
+holds.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-import planning
+from planning import as_driven
 from report import Figure
 from teo_common.text_folding import without_accents
 from teo_description.humanoid import load_humanoid
@@ -38,7 +38,6 @@ from teo_signs.tokens import Kind, Token
 
 REST = load_humanoid().ready
 
-NAMES, WORDS = 200, 1000
 _SHORTEST, _LONGEST = 3, 10
 _BATCH = 25
 _TEO = load_humanoid("teo")
@@ -61,33 +60,33 @@ class Word(NamedTuple):
     joints: tuple[str, ...]
 
 
-def measure() -> list[Figure]:
-    """Names, now and as captured; then random words."""
-    words = names()
+def measure(names: int = 200, words: int = 1000) -> list[Figure]:
+    """So many names, now and as captured; then so many random words."""
+    letters = _names(names)
     with multiprocessing.get_context("spawn").Pool(os.cpu_count()) as pool:
-        now = pool.map(spelled, words, chunksize=10)
-        before = pool.map(_spelled_as_captured, words, chunksize=10)
-        drives = {drive: pool.map(partial(spelled, drive=drive), words, chunksize=10) for drive in _OTHERS}
-        shares = [range(begin, begin + _BATCH) for begin in range(0, WORDS, _BATCH)]
+        now = pool.map(_spelled, letters, chunksize=10)
+        before = pool.map(_spelled_as_captured, letters, chunksize=10)
+        drives = {drive: pool.map(partial(_spelled, drive=drive), letters, chunksize=10) for drive in _OTHERS}
+        shares = [range(begin, min(begin + _BATCH, words)) for begin in range(0, words, _BATCH)]
         checked = pool.map(_random_words, shares)
     slowest = [joint for word in now for joint in word.joints]
     order = sorted(set(slowest), key=slowest.count, reverse=True)
     joints = ", ".join(f"{joint} {slowest.count(joint)}" for joint in order[:5])
-    what = f"seconds a letter, {len(words)} names of {_SHORTEST} to {_LONGEST} letters"
+    what = f"seconds a letter, {len(letters)} names of {_SHORTEST} to {_LONGEST} letters"
     return [
         Figure(what, _figure(now)),
         Figure("baseline: letters as captured and held", _figure(before)),
         *(Figure(f"with the hand drive {drive}", _figure(other)) for drive, other in drives.items()),
         Figure(f"slowest joint, of {len(slowest)} ways", joints),
         Figure(
-            f"{WORDS} random words of {_SHORTEST} to {_LONGEST} letters",
+            f"{words} random words of {_SHORTEST} to {_LONGEST} letters",
             f"{sum(item[0] for item in checked)} limits broken, {sum(item[1] for item in checked)} refused "
             f"for self-collision, nearest approach {1000.0 * min(item[2] for item in checked):.0f} mm",
         ),
     ]
 
 
-def names() -> list[list[str]]:
+def _names(count: int) -> list[list[str]]:
     """The letters of the commonest names of the translator's lexicon, in its order."""
     words: list[list[str]] = []
     for line in data_file("lexicon/names.tsv").read_text(encoding="utf-8").splitlines():
@@ -98,10 +97,10 @@ def names() -> list[list[str]]:
         letters = [item.token.gloss for item in Lexicon(_alphabet()).resolve([token])]
         if _SHORTEST <= len(letters) <= _LONGEST:
             words.append(letters)
-    return words[:NAMES]
+    return words[:count]
 
 
-def spelled(letters: list[str], drive: str = _TEO.default_hand_drive) -> Word:
+def _spelled(letters: list[str], drive: str = _TEO.default_hand_drive) -> Word:
     """Plan a word with the alphabet as it is, for a hand with this drive."""
     return _timed([Token(gloss=letter, kind=Kind.LETTER) for letter in letters], _planner(drive), _alphabet())
 
@@ -150,7 +149,7 @@ def _random_words(numbers: range) -> tuple[int, int, float]:
                 raise RuntimeError(f"{'-'.join(word)}: {error.code}") from error
             refused += 1
             continue
-        broken += planning.check(plan).violations
+        broken += len(as_driven(plan).broken())
         if plan.nearest is not None:
             nearest = min(nearest, plan.nearest.distance)
     return broken, refused, nearest
@@ -183,13 +182,3 @@ def _captured() -> dict[str, Sign]:
 @cache
 def _planner(drive: str = _TEO.default_hand_drive) -> Planner:
     return Planner(_alphabet(), robot=_robot(), limits=MotionLimits.of_robot(hand_drive=drive))
-
-
-def main() -> None:
-    """Print the figures."""
-    for figure in measure():
-        print(f"{figure.what}: {figure.value}")
-
-
-if __name__ == "__main__":
-    main()

@@ -23,7 +23,6 @@ from pathlib import Path
 from statistics import median
 
 import blind_sentences
-from glosses import published
 from glosses.annotated_signs import read_annotated
 from glosses.measures import overlap
 from glosses.systems import SENTENCES, System, judged, lines, plain, systems
@@ -51,18 +50,17 @@ _PARTS = {
 }
 
 
-def measure() -> list[Figure]:
-    """All figures, a row for each set of sentences."""
-    every = systems()
+def measure(every: int = 1) -> list[Figure]:
+    """All figures, a row for each set of sentences, by every so manieth sentence of the larger ones."""
+    translators = systems()
     return [
-        *_taught(every),
-        *_known(every),
-        *_held_out(every),
-        *constructions(),
-        *blind_sentences.figures(),
-        *_signed(every),
+        *_taught(translators),
+        *_known(translators, every),
+        *_held_out(translators, every),
+        *_constructions(every),
+        *(figure for language in blind_sentences.LANGUAGES for figure in blind_sentences.figures(language)),
+        *_signed(translators),
         *_speed(),
-        *published.figures(),
     ]
 
 
@@ -77,8 +75,8 @@ def _taught(systems: Mapping[str, System]) -> Iterable[Figure]:
         yield Figure(f"training pairs: the paper's {len(pairs)}, {what}: exact", _row(right))
 
 
-def _known(systems: Mapping[str, System]) -> Iterable[Figure]:
-    sentences = judged("known")
+def _known(systems: Mapping[str, System], every: int) -> Iterable[Figure]:
+    sentences = judged("known")[::every]
     counts = [len(accepted) for _, accepted in sentences]
     right = {
         name: share(sum(system(spanish) in accepted for spanish, accepted in sentences), len(sentences))
@@ -88,19 +86,19 @@ def _known(systems: Mapping[str, System]) -> Iterable[Figure]:
     yield Figure(f"{len(sentences)} known sentences: accepted (95 % interval), {accepts}", _row(right))
 
 
-def _held_out(systems: Mapping[str, System]) -> Iterable[Figure]:
-    parts = _generated(hold_out_constructions=False)
+def _held_out(systems: Mapping[str, System], every: int) -> Iterable[Figure]:
+    parts = _generated(_GENERATED // every, hold_out_constructions=False)
     for part, pairs in sorted(parts.items()):
         yield from _exact(part, pairs, systems)
 
 
-def constructions() -> Iterable[Figure]:
+def _constructions(every: int) -> Iterable[Figure]:
     """Of a model that was trained without them, if there is one."""
     what = f"generated, {_PARTS['test_constructions']}"
     if not (_WITHOUT_CONSTRUCTIONS / "pointer.safetensors").is_file():
         yield Figure(what, "not measured: train that model first, see the translator's README")
         return
-    pairs = _generated(hold_out_constructions=True)["test_constructions"]
+    pairs = _generated(_GENERATED // every, hold_out_constructions=True)["test_constructions"]
     others = systems(Translator.load(directory=_WITHOUT_CONSTRUCTIONS))
     yield from _exact("test_constructions", pairs, others)
     for construction, names in _generator().grammar.constructions.items():
@@ -124,10 +122,10 @@ def _generator() -> Generator:
     return Generator.load(data_file("grammar"), Morphology.load())
 
 
-def _generated(*, hold_out_constructions: bool) -> Mapping[str, list[Pair]]:
-    """Sentences of each part that training has not seen, by split."""
+def _generated(count: int, *, hold_out_constructions: bool) -> Mapping[str, list[Pair]]:
+    """Sentences of each part that training has not seen, of so many that are generated, by split."""
     parts: defaultdict[str, list[Pair]] = defaultdict(list)
-    for pair in _generator().pairs(_GENERATED, seed=2, hold_out_constructions=hold_out_constructions):
+    for pair in _generator().pairs(count, seed=2, hold_out_constructions=hold_out_constructions):
         if pair.split.startswith("test"):
             parts[pair.split].append(pair)
     return parts

@@ -14,8 +14,7 @@ from types import TracebackType
 
 from hosts import Host, Network
 from typed_page import Shell, blocks_of
-
-from nodes.witness import Seen
+from witness import Seen
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "machines.md"
@@ -25,7 +24,7 @@ INTRUDER = {"intruder": "192.168.10.66"}
 PROGRAMS = ("wg", "wireguard-go")
 TEXT = "ros2 topic pub --once /text std_msgs/msg/String \"{data: 'Hola'}\""
 _PATIENCE = 600.0  # [s] for all nodes to start, on a loaded machine
-_WITNESS = "exec python -m nodes.witness"
+_WITNESS = "exec python -m witness"
 _ENTER = "ip netns exec teo bash"
 
 
@@ -66,7 +65,7 @@ class Laboratory:
         """A new shell of a machine, outside the tunnel, with nothing set of the network."""
         host = self.host(name)
         clean = {key: value for key, value in os.environ.items() if not key.startswith(("ROS_", "FASTRTPS_"))}
-        clean["PYTHONPATH"] = f"{ROOT / 'studio' / 'bench'}:{clean.get('PYTHONPATH', '')}"
+        clean["PYTHONPATH"] = f"{ROOT / 'test' / 'support'}:{clean.get('PYTHONPATH', '')}"
         return Shell(*host.entered("bash"), environment=clean, home=host.home)
 
     def inside(self, name: str) -> Shell:

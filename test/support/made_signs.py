@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -17,7 +18,7 @@ from teo_motion.sentence.plan import Plan
 from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 from teo_signs.sign import Sign
 from teo_signs.sign_file import save_sign
-from teo_signs.sign_schema import Provenance
+from teo_signs.sign_schema import Kind, Provenance
 
 RIGHT = RIGHT_ARM + RIGHT_HAND
 LEFT = LEFT_ARM + LEFT_HAND
@@ -30,11 +31,11 @@ MakeSign = Callable[..., Sign]
 
 def make_sign(
     gloss: str,
-    knots: NDArray[np.float64] | Sequence[Sequence[float]],
+    knots: NDArray[np.float64] | Sequence[Sequence[float] | NDArray[np.float64]],
     times: Sequence[float] | NDArray[np.float64] = (0.0,),
     *,
     joints: tuple[str, ...] = RIGHT,
-    kind: str = "lexical",
+    kind: Kind = "lexical",
     robot: str = DEFAULT_ROBOT,
 ) -> Sign:
     humanoid = load_humanoid(robot)
@@ -89,8 +90,8 @@ def small_table() -> dict[str, Sign]:
     signs.append(make_sign("TÚ", wave, [0.0, 0.25, 0.5]))
     both = np.radians([-40, 5, 20, -60, 0, 0])
     mirrored = np.radians([-40, -5, -20, -60, 0, 0])
-    fingers = np.radians([0, 10, 10, 10, 10, 10])
-    start = np.concatenate([both, fingers, mirrored, fingers])
+    bent = np.radians([0, 10, 10, 10, 10, 10])
+    start = np.concatenate([both, bent, mirrored, bent])
     end = start.copy()
     end[[3, 15]] += 0.2
     signs.append(make_sign("CASA", [start, end], [0.0, 0.4], joints=LEFT + RIGHT))
@@ -148,7 +149,7 @@ def random_table(rng: np.random.Generator, signs: int = 4, *, robot: str = DEFAU
             case _:
                 knots = np.where(rng.random(shape) < 0.5, limits.lower, limits.upper)
         times = np.concatenate([[0.0], np.cumsum(gaps)])
-        kind = str(rng.choice(["lexical", "letter", "number"]))
+        kind: Kind = get_args(Kind)[rng.integers(3)]
         gloss = f"SIGN{number}"
         table[gloss] = make_sign(gloss, knots, times, joints=joints, kind=kind, robot=robot)
     return table

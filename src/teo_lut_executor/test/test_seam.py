@@ -9,7 +9,7 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 
-from executed_motion import STEP, executed
+from executed_motion import executed, judged
 from queue_world import World
 from teo_lut_executor.execution.events import Preemption, QueueSettings
 from teo_signs.sign import Sign
@@ -17,7 +17,7 @@ from teo_signs.sign import Sign
 
 def assert_within_limits(world: World) -> None:
     """What the driver makes of all that was sent; it must refuse nothing."""
-    _, *most = world.planner.limits.reached(executed(world), STEP)
+    _, *most = judged(executed(world))
     assert max(most) <= 1.001, f"velocity, acceleration, jerk over the limit: {most}"
 
 

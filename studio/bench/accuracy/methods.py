@@ -8,10 +8,9 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from accuracy.takes import TakeFrame
-from teo_skeleton_retriever.arrays import FloatArray
+from teo_skeleton_retriever.arrays import DepthArray, FloatArray
 from teo_skeleton_retriever.compat.original_parameters import OriginalParameters
 from teo_skeleton_retriever.compat.original_retriever import OriginalRetriever
 from teo_skeleton_retriever.compat.original_skeleton import FROM_BODY_25, SKELETON_STD
@@ -19,23 +18,17 @@ from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D, as_body_25
 from teo_skeleton_retriever.retriever import DetectionFrame, Retriever, RetrieverParameters, Skeleton
 
-BODY_ROW = BODY_25.index
 Detections = Callable[[TakeFrame], tuple[Person2D, ...]]
+_KEYPOINTS = 25 + 2 * 21 + 70  # of body, left hand, right hand and face
 
 
 class Estimate(NamedTuple):
-    """What a method says of one image; NaN where it says nothing."""
+    """What a method says of one image: body, left hand, right hand, face; NaN where it says nothing."""
 
-    body: FloatArray
-    """[m]. Shape (25, 3)"""
-    hands: FloatArray
-    """left, then right [m]. Shape (42, 3)"""
-    face: FloatArray
-    """[m]. Shape (70, 3)"""
+    points: FloatArray
+    """[m]. Shape (137, 3)"""
     sigma: FloatArray
-    """of body and hands [m]; NaN where the method gives none. Shape (67, 3)"""
-    status: NDArray[np.uint8]
-    """of `KeypointStatus`, of body and hands; lost where the method gives none. Shape (67,)"""
+    """[m]. Shape (137, 3)"""
 
 
 def detected(frame: TakeFrame) -> tuple[Person2D, ...]:
@@ -67,42 +60,52 @@ def perfect(frame: TakeFrame) -> tuple[Person2D, ...]:
     )
 
 
-def ours(frames: Sequence[TakeFrame], see: Detections) -> list[Estimate]:
-    """The retriever as it is set by default, but that somebody is a person from the first image on."""
+def ours(
+    frames: Sequence[TakeFrame], see: Detections, worsen: Callable[[DepthArray], DepthArray] | None = None
+) -> list[Estimate]:
+    """The retriever as it is set by default, but that somebody is a person from the first image on.
+
+    Args:
+        frames: The take.
+        see: What the detector sees of each.
+        worsen: What becomes of the depth.
+    """
     detector = "other" if see is perfect else "mediapipe"
     retriever = Retriever(RetrieverParameters(newcomer_images=1, detector=detector))
     estimates = []
     for frame in frames:
-        found = retriever.process(DetectionFrame(frame.stamp, see(frame), frame.depth(), frame.camera))
-        estimates.append(signer_estimate(found))
+        depth = frame.depth() if worsen is None else worsen(frame.depth())
+        found = retriever.process(DetectionFrame(frame.stamp, see(frame), depth, frame.camera))
+        # The signer, or the first person while nobody is known to be one.
+        signers = [skeleton for skeleton in found if skeleton.is_signer] or list(found)
+        estimates.append(_estimate_of(signers[0]) if signers else _nothing())
     return estimates
+
+
+def _estimate_of(skeleton: Skeleton) -> Estimate:
+    parts = (skeleton.body, skeleton.left_hand, skeleton.right_hand, skeleton.face)
+    return Estimate(
+        np.concatenate([part.points for part in parts]), np.concatenate([part.sigma for part in parts])
+    )
 
 
 def one_pixel(frames: Sequence[TakeFrame], see: Detections) -> list[Estimate]:
     """The usual way: the depth of the one pixel at each keypoint, taken as it is."""
     estimates = []
     for frame in frames:
-        people = see(frame)
-        if not people:
-            estimates.append(nothing())
-            continue
-        depth = frame.depth()
-        person = people[0]
-        keypoints = np.concatenate(
-            [
-                as_body_25(person.body),
-                *(
-                    part if len(part) else np.zeros((n, 3))
-                    for part, n in ((person.left_hand, 21), (person.right_hand, 21), (person.face, 70))
-                ),
-            ]
-        )
-        columns, rows = np.rint(keypoints[:, :2]).astype(int).T
-        seen = (keypoints[:, 2] >= 0.3) & frame.camera.contains(keypoints[:, :2])
-        depths = np.full(len(keypoints), np.nan)
-        depths[seen] = depth[rows[seen], columns[seen]]
-        points = frame.camera.unproject(keypoints[:, :2], depths)
-        estimates.append(Estimate(points[:25], points[25:67], points[67:], *_untold()))
+        estimate = _nothing()
+        for person in see(frame)[:1]:
+            depth = frame.depth()
+            found = [as_body_25(person.body)]
+            for part, count in ((person.left_hand, 21), (person.right_hand, 21), (person.face, 70)):
+                found.append(part if len(part) else np.zeros((count, 3)))
+            keypoints = np.concatenate(found)
+            columns, rows = np.rint(keypoints[:, :2]).astype(int).T
+            seen = (keypoints[:, 2] >= 0.3) & frame.camera.contains(keypoints[:, :2])
+            depths = np.full(len(keypoints), np.nan)
+            depths[seen] = depth[rows[seen], columns[seen]]
+            estimate.points[:] = frame.camera.unproject(keypoints[:, :2], depths)
+        estimates.append(estimate)
     return estimates
 
 
@@ -112,40 +115,17 @@ def original(frames: Sequence[TakeFrame], see: Detections) -> list[Estimate]:
     estimates = []
     for frame in frames:
         found = retriever.step(frame.stamp, see(frame), frame.depth())
-        estimate = nothing()
+        estimate = _nothing()
         if found:
             skeleton = found[max(found)]
             for name, tag in FROM_BODY_25.items():
                 row = SKELETON_STD.index[tag]
                 if skeleton.updated[row]:
-                    estimate.body[BODY_ROW[name]] = skeleton.points[row]
+                    estimate.points[BODY_25.index[name]] = skeleton.points[row]
         estimates.append(estimate)
     return estimates
 
 
-def signer_estimate(found: Sequence[Skeleton]) -> Estimate:
-    """What is said of the signer, or of the first person while nobody is known to be one."""
-    signers = [skeleton for skeleton in found if skeleton.is_signer] or list(found)
-    return estimate_of(signers[0]) if signers else nothing()
-
-
-def estimate_of(skeleton: Skeleton) -> Estimate:
-    """What a skeleton says."""
-    body, left, right = skeleton.body, skeleton.left_hand, skeleton.right_hand
-    return Estimate(
-        body.points,
-        np.concatenate([left.points, right.points]),
-        skeleton.face.points,
-        np.concatenate([body.sigma, left.sigma, right.sigma]),
-        np.concatenate([body.status, left.status, right.status]),
-    )
-
-
-def nothing() -> Estimate:
+def _nothing() -> Estimate:
     """What is said where nobody is found."""
-    body, hands, face = (np.full((n, 3), np.nan) for n in (25, 42, 70))
-    return Estimate(body, hands, face, *_untold())
-
-
-def _untold() -> tuple[FloatArray, NDArray[np.uint8]]:
-    return np.full((67, 3), np.nan), np.zeros(67, dtype=np.uint8)
+    return Estimate(np.full((_KEYPOINTS, 3), np.nan), np.full((_KEYPOINTS, 3), np.nan))

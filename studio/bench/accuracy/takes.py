@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import hashlib
+import math
 import pickle
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
@@ -12,15 +13,16 @@ from pathlib import Path
 
 import cv2
 import numpy as np
-from numpy.typing import NDArray
 
+from accuracy.people import random_people
 from kept import kept_folder
 from teo_common.atomic_files import write_atomically
 from teo_skeleton_retriever.arrays import DepthArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.detectors import make_detector
 from teo_skeleton_retriever.layouts.person_2d import Person2D
-from teo_synthetic_signer import Companion, Truth, render_take
+from teo_synthetic_signer import Truth, render_take
+from teo_synthetic_signer.body.body_shapes import BODIES
 
 _STEP = 1e-4  # [m] of stored depth: a twentieth of the camera's own noise, up to 6.5 m
 
@@ -41,7 +43,6 @@ class TakeSettings:
     seed: int = 0
     camera_roll: float = 0.0
     light: str = "room"
-    companions: tuple[Companion, ...] = ()
 
     def name(self) -> str:
         """Give a name that no other settings have."""
@@ -51,22 +52,14 @@ class TakeSettings:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class TakeFrame:
-    """One image of a take, compressed."""
+    """One image of a take."""
 
     stamp: float
-    jpeg: bytes
     png: bytes
+    """of its depth"""
     camera: CameraModel
     truth: Truth
     people: tuple[Person2D, ...]
-    others: tuple[Truth, ...] = ()
-    """of the companions"""
-
-    def color(self) -> NDArray[np.uint8]:
-        """Give the image. RGB, shape (height, width, 3)."""
-        image = cv2.imdecode(np.frombuffer(self.jpeg, np.uint8), cv2.IMREAD_COLOR)
-        assert image is not None  # it was encoded here
-        return np.asarray(image[..., ::-1], dtype=np.uint8)
 
     def depth(self) -> DepthArray:
         """Give the depth [m], NaN where unknown. Shape (height, width)."""
@@ -107,7 +100,6 @@ def _rendered(settings: TakeSettings) -> Iterator[TakeFrame]:
         seed=settings.seed,
         camera_roll=settings.camera_roll,
         light=settings.light,
-        companions=settings.companions,
     )
     detector = make_detector("mediapipe")
     try:
@@ -117,14 +109,57 @@ def _rendered(settings: TakeSettings) -> Iterator[TakeFrame]:
             steps = np.where(steps < 65536, steps, 0).astype(np.uint16)
             yield TakeFrame(
                 stamp=frame.stamp,
-                jpeg=cv2.imencode(".jpg", frame.color[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, 92])[
-                    1
-                ].tobytes(),
                 png=cv2.imencode(".png", steps, [cv2.IMWRITE_PNG_COMPRESSION, 1])[1].tobytes(),
                 camera=frame.camera,
                 truth=frame.truth,
-                others=frame.others,
                 people=detector.detect(frame.color, frame.stamp),
             )
     finally:
         detector.close()
+
+
+_SCENES = ("office", "studio", "living_room", "near_wall")
+# What the body does there is in none of the takes of calibration: script, start of each of its takes [s].
+_KNOWN_MOTIONS = {
+    "face": (0.4, 2.0, 3.6, 5.1),
+    "crossing": (0.3, 1.4, 2.4, 3.4),
+    "fast": (0.5, 1.9, 3.3, 4.5),
+    "spelling": (0.6, 2.8, 5.0, 7.2),
+    "turning": (0.3, 1.3, 2.3, 3.3),
+}
+KNOWN_TAKES: tuple[TakeSettings, ...] = tuple(
+    TakeSettings(
+        script=script,
+        body=("man_tall", "woman_small", "woman_old")[(i + k) % 3],
+        scene=("office", "living_room", "near_wall", "studio")[(i + k) % 4],
+        distance=(1.2, 1.4, 1.6, 1.8, 2.0)[(i + k) % 5],
+        camera_height=(1.0, 1.3, 1.6)[(i + 2 * k) % 3],  # [m] on a table, at the chest, on a stand
+        start=start,
+        seed=100 + 10 * i + k,
+    )
+    for i, (script, starts) in enumerate(_KNOWN_MOTIONS.items())
+    for k, start in enumerate(starts)
+)
+
+
+def _held_out(count: int) -> Iterator[TakeSettings]:
+    """Cameras at 1 to 2.5 m, rolled by up to 12 degrees, as on a tripod that nobody levelled."""
+    random = np.random.default_rng(433_494)
+    for i in range(count):
+        yield TakeSettings(
+            script=("signing", "face", "two_hands", "crossing", "turning", "spelling")[i % 6],
+            body=f"held_out_{i}",
+            scene=_SCENES[int(random.integers(4))],
+            light=("room", "window", "ceiling", "evening")[i % 4],
+            distance=round(float(random.uniform(1.0, 2.5)), 2),
+            camera_height=round(float(random.uniform(0.9, 1.8)), 2),
+            camera_roll=round(math.radians(float(random.uniform(-12.0, 12.0))), 3),
+            start=round(float(random.uniform(0.4, 3.0)), 1),
+            seconds=1.2,
+            rate=10.0,
+            seed=400_000 + i,
+        )
+
+
+BODIES |= random_people(12, 1_061_033, "held_out")
+HELD_OUT_TAKES = tuple(_held_out(12))

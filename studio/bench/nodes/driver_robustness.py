@@ -10,34 +10,27 @@ from collections import Counter
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 from rclpy.serialization import serialize_message
 
 from driver_messages import send
-from nodes.driver_rate import PERIOD, wave
+from executed_motion import Reached, judged
+from nodes.driver_rate import PERIOD, SECOND, home, wave
 from report import Figure
-from teo_motion.trajectory.limits import MotionLimits
-from teo_names import COMMANDED_JOINTS, HOME, LEG_JOINTS, joint_limits
+from teo_names import COMMANDED_JOINTS, LEG_JOINTS, joint_limits
+from teo_sim_driver import JointFollower, Mode, Refusal, Rules, TrajectoryError
 from teo_sim_driver.checking.intake import MOST_WAITING, Intake
-from teo_sim_driver.errors import Refusal, TrajectoryError
-from teo_sim_driver.follower_report import Mode
-from teo_sim_driver.joint_follower import JointFollower
-from teo_sim_driver.motion.path_time import SECOND
-from teo_sim_driver.motion.trajectory import Trajectory
-from teo_sim_driver.rules import Rules
 
-MESSAGES, STOPS = 100_000, 1_000
 _POINTS = 20
-_LOOK = PERIOD / 10  # [s]: finer than the driver steps, to see more
+_STEP = round(PERIOD * SECOND)  # [ns]
 _JOINTS = len(COMMANDED_JOINTS)
 _ROW = 8 * _JOINTS  # [bytes] of the values of a field
 
 Spoil = Callable[[bytearray, np.random.Generator], bytearray]
 
 
-def measure() -> list[Figure]:
+def measure(messages: int = 100_000, stops: int = 1_000) -> list[Figure]:
     """Figures of the malformed messages, then of the stops."""
-    return [*_malformed(), *_stops()]
+    return [*_malformed(messages), *_stops(stops)]
 
 
 def _good() -> tuple[bytes, int, int]:
@@ -99,11 +92,10 @@ _SPOIL: dict[str, Spoil] = {
 }
 
 
-def _malformed() -> list[Figure]:
+def _malformed(messages: int) -> list[Figure]:
     rng = np.random.default_rng(13)
     limits, rules = joint_limits(COMMANDED_JOINTS), Rules()
-    home = np.array([HOME[name] for name in COMMANDED_JOINTS])
-    follower = JointFollower(limits=limits, start=home, period=PERIOD)
+    follower = JointFollower(limits=limits, start=home(), period=PERIOD)
     intake: Intake[str] = Intake(limits, LEG_JOINTS)
     kinds = list(_SPOIL)
     codes: Counter[str] = Counter()
@@ -111,8 +103,8 @@ def _malformed() -> list[Figure]:
     faults = sent = waiting = 0
     steps: list[float] = []
     begin = due = time.monotonic()
-    while sent < MESSAGES or waiting:
-        while sent < MESSAGES and waiting < MOST_WAITING:
+    while sent < messages or waiting:
+        while sent < messages and waiting < MOST_WAITING:
             kind = kinds[sent % len(kinds)]
             intake.put(bytes(_SPOIL[kind](bytearray(_DATA), rng)), rules, kind)
             sent, waiting = sent + 1, waiting + 1
@@ -138,71 +130,45 @@ def _malformed() -> list[Figure]:
     return [
         Figure(
             f"malformed messages of {_POINTS} points, {len(kinds)} kinds",
-            f"{MESSAGES} sent, {codes.total()} refused with a reason ({len(codes)} codes), "
+            f"{messages} sent, {codes.total()} refused with a reason ({len(codes)} codes), "
             f"{accepted.total()} accepted, {faults} faults",
         ),
         Figure(
             "steps meanwhile",
             f"{len(gaps) / seconds:.2f} Hz, p99 {np.percentile(gaps, 99) * 1e3:.1f} ms, "
-            f"longest {gaps.max() * 1e3:.1f} ms; {MESSAGES / seconds:.0f} messages a second",
+            f"longest {gaps.max() * 1e3:.1f} ms; {messages / seconds:.0f} messages a second",
         ),
     ]
 
 
-def _stops() -> list[Figure]:
-    rng = np.random.default_rng(17)
+def _stops(stops: int) -> list[Figure]:
+    dice = np.random.default_rng(17)
     limits = joint_limits(COMMANDED_JOINTS)
-    home = np.array([HOME[name] for name in COMMANDED_JOINTS])
-    times, travels, added, beyond, fastest = [], [], [], [], []
-    for _ in range(STOPS):
-        follower = JointFollower(limits=limits, start=home, period=PERIOD)
+    lasted, farthest, reached = [], [], []
+    for _ in range(stops):
+        follower = JointFollower(limits=limits, start=home(), period=PERIOD)
         follower.step(0)
-        trajectory = send(follower, wave(4.0, rng.uniform(0.0, 0.45, len(home))), 0)
-        now = 0
-        state = follower.step(0)
-        stop_at = rng.uniform(0.0, trajectory.duration)
-        while now / SECOND < stop_at:
-            now += round(PERIOD * SECOND)
-            state = follower.step(now)
-        begin, own = state.positions, _acceleration(trajectory, now / SECOND)
+        trajectory = send(follower, wave(4.0, dice.uniform(0.0, 0.45, len(limits.names))), 0)
+        now = round(dice.uniform(0.0, trajectory.duration) / PERIOD) * _STEP
+        for time_before in range(0, now, _STEP):
+            follower.step(time_before)
+        path = [follower.step(now).positions]
         follower.block(Mode.STOPPED, "bench", now)
-        elapsed, path = 0, [begin]
-        while True:
-            elapsed += round(_LOOK * SECOND)
-            before, state = state, follower.step(now + elapsed)
-            path.append(state.positions)
-            if follower.trajectory is None:
-                break
-            change = np.abs(state.velocities - before.velocities) / _LOOK
-            added.append(float(np.max(change - own)))
-        reached = MotionLimits.of_robot().reached(np.array([*path, *[state.positions] * 3]), _LOOK)
-        beyond.append(reached.beyond)
-        fastest.append(reached.velocity)
-        times.append(elapsed / SECOND)
-        travels.append(float(np.abs(state.positions - begin).max()))
+        while follower.trajectory is not None:
+            now += _STEP // 10  # finer than the driver steps, to see more
+            path.append(follower.step(now).positions)
+        reached.append(judged(np.array([*path, *[path[-1]] * 3]), PERIOD / 10))
+        lasted.append((len(path) - 1) * PERIOD / 10)
+        farthest.append(float(np.abs(path[-1] - path[0]).max()))
     deceleration, jerk = follower.braking
     top = float(limits.velocity.max())
     longest = top / deceleration + deceleration / jerk
+    most = Reached(*np.max(reached, axis=0))
     return [
         Figure(
-            f"{STOPS} stops from anywhere",
-            f"positions {max(beyond):.1e} rad beyond the limits, velocity {max(fastest):.4f} of its limit; "
-            f"longest {max(times) * 1e3:.0f} ms (bound {longest * 1e3:.0f} ms and a sample), "
-            f"farthest {max(travels):.4f} rad (bound {top * longest / 2.0:.4f} rad)",
-        ),
-        Figure(
-            "what stopping adds to a joint's acceleration",
-            f"at most {max(added):.2f} rad/s^2 (bound {deceleration:g} rad/s^2)",
-        ),
+            f"{stops} stops from anywhere",
+            f"positions {most.beyond:.1e} rad beyond the limits, velocity {most.velocity:.4f} of its limit; "
+            f"longest {max(lasted) * 1e3:.0f} ms (bound {longest * 1e3:.0f} ms and a sample), "
+            f"farthest {max(farthest):.4f} rad (bound {top * longest / 2.0:.4f} rad)",
+        )
     ]
-
-
-def _acceleration(trajectory: Trajectory, moment: float) -> NDArray[np.float64]:
-    """The greatest that the path itself asks of each joint in the next quarter of a second [rad/s^2]."""
-    states = [trajectory.sample(moment + ahead) for ahead in np.arange(0.0, 0.25, 0.005)]
-    return np.asarray(np.max(np.abs([state.accelerations for state in states]), axis=0))
-
-
-if __name__ == "__main__":
-    for figure in measure():
-        print(f"{figure.what}: {figure.value}")

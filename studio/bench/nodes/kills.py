@@ -18,90 +18,94 @@ import subprocess
 import tempfile
 import time
 from collections import Counter
-from collections.abc import Callable
 from pathlib import Path
 
-import rclpy
-from rclpy.executors import SingleThreadedExecutor
 from std_msgs.msg import String
+from witness import Witness
 
-from nodes.witness import Witness
+from nodes.bench_node import bench_graph
 from report import Figure
 from teo_bringup.graph import NODES, SIGNING, executable_of
 
-KILLS = 20
 _TEXT = "Hola. Sí."
 _LONGEST = 8.0  # [s] until the text is signed, about
 _VICTIMS = ("translator", "executor", "planner", "driver")
-_SEED = 13
 # [s] until all is at rest again: an executor and its planner load for 7 s of a core, which are minutes where
 # seven processes of higher priority wait for each.
 _TIMEOUT = 900.0
 _RESTART = 1.0  # [s] after which a supervisor starts a process again
 
 
-def measure(kills: int = KILLS, seed: int = _SEED) -> list[Figure]:
-    """Kill processes at random moments, each as often as the others, and count what is lost."""
-    os.environ.setdefault("ROS_DOMAIN_ID", "18")
-    os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
-    rclpy.init()
-    witness, executor, dice = Witness(), SingleThreadedExecutor(), random.Random(seed)
-    executor.add_node(witness)
-    processes: dict[str, subprocess.Popen[bytes]] = {}
+class _Processes:
+    """The nodes that sign, each a process that can be killed."""
 
-    def wait(condition: Callable[[], bool], most: float) -> bool:
-        deadline = time.monotonic() + most
-        while not condition() and time.monotonic() < deadline:
-            executor.spin_once(timeout_sec=0.05)
-        return condition()
+    def __init__(self, journal: Path) -> None:
+        self._journal = journal
+        self._running: dict[str, subprocess.Popen[bytes]] = {}
 
-    def start(name: str, journal: Path) -> None:
+    def start(self, name: str) -> None:
         command = [str(executable_of(*NODES[name]))]
         if name == "executor":
-            command += ["--ros-args", "-p", f"journal:={journal}"]
-        processes[name] = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            command += ["--ros-args", "-p", f"journal:={self._journal}"]
+        quiet = subprocess.DEVNULL
+        self._running[name] = subprocess.Popen(command, stdout=quiet, stderr=quiet)
 
+    def kill(self, name: str) -> None:
+        if name == "planner":  # the executor's only child, which starts it again
+            parent = self._running["executor"].pid
+            for child in Path(f"/proc/{parent}/task/{parent}/children").read_text().split():
+                os.kill(int(child), signal.SIGKILL)
+        else:
+            self._running[name].kill()
+            self._running[name].wait()
+
+    def end(self) -> None:
+        for process in self._running.values():
+            process.kill()
+            process.wait()
+
+
+def measure(kills: int = 20, seed: int = 13) -> list[Figure]:
+    """Kill processes at random moments, each as often as the others, and count what is lost."""
+    dice = random.Random(seed)
     lost: list[str] = []
     restless: list[str] = []
     unanswered = 0
     outcomes: Counter[str] = Counter()
     fastest = longest = 0.0
-    with tempfile.TemporaryDirectory() as folder:
-        journal = Path(folder)
+    with bench_graph() as (node, _), tempfile.TemporaryDirectory() as journal:
+        processes, witness = _Processes(Path(journal)), Witness()
+        node.spin_too(witness)
         try:
             for name in SIGNING:
-                start(name, journal)
+                processes.start(name)
             for index in range(kills):
-                wait(lambda: witness.at_rest, _TIMEOUT)
+                node.until(lambda: witness.at_rest, _TIMEOUT)
                 victim, moment = _VICTIMS[index % len(_VICTIMS)], dice.uniform(0.0, _LONGEST)
                 witness.texts.publish(String(data=_TEXT))
                 typed = 1
-                wait(lambda: False, moment)
-                _kill(victim, processes)
+                node.spin(moment)
+                processes.kill(victim)
                 if victim != "translator":
                     witness.texts.publish(String(data=_TEXT))
                     typed += 1
-                wait(lambda: False, _RESTART)
+                node.spin(_RESTART)
                 witness.heard.clear()  # what was restarted is there when it is heard again
                 if victim != "planner":
-                    start(victim, journal)
+                    processes.start(victim)
                 began = time.monotonic()
-                if not wait(lambda: witness.at_rest, _TIMEOUT):
-                    restless.append(f"{victim} after {moment:.1f} s: {witness.unrest}")
+                what = f"{victim} after {moment:.1f} s"
+                if not node.until(lambda: witness.at_rest, _TIMEOUT):
+                    restless.append(f"{what}: {witness.unrest}")
                 longest = max(longest, time.monotonic() - began)
                 unanswered += typed - len(witness.answered)
-                lost += [
-                    f"{victim} after {moment:.1f} s" for _ in witness.sentences - witness.accounted.keys()
-                ]
+                lost += [what for _ in witness.sentences - witness.accounted.keys()]
                 outcomes.update(witness.accounted.values())
                 fastest = max(fastest, witness.fastest())
                 witness.forget()
         finally:
-            for process in processes.values():
-                process.kill()
-                process.wait()
-    witness.destroy_node()
-    rclpy.shutdown()
+            processes.end()
+            witness.destroy_node()
     told = ", ".join(f"{count} {outcome}" for outcome, count in outcomes.most_common())
     return [
         Figure(f"sentences after {kills} kills", told),
@@ -111,13 +115,3 @@ def measure(kills: int = KILLS, seed: int = _SEED) -> list[Figure]:
         Figure("longest from a restart until all is signed and at rest", f"{longest:.0f} s"),
         Figure("greatest speed over the limit", f"{fastest:.3f}"),
     ]
-
-
-def _kill(victim: str, processes: dict[str, subprocess.Popen[bytes]]) -> None:
-    if victim == "planner":  # the executor's only child
-        parent = processes["executor"].pid
-        for child in Path(f"/proc/{parent}/task/{parent}/children").read_text().split():
-            os.kill(int(child), signal.SIGKILL)
-        return
-    processes[victim].kill()
-    processes[victim].wait()

@@ -18,8 +18,8 @@ from pathlib import Path
 
 from hosts import missing
 from laboratory import PROGRAMS, ROOT, Laboratory
+from witness import Seen
 
-from nodes.witness import Seen
 from report import Figure
 
 # Name, one-way delay [s], share of packets lost, time without the robot [s].
@@ -30,11 +30,10 @@ _ROWS = (
     ("robot cut off for 5 s", 0.0, 0.0, 5.0),
     ("robot cut off for 60 s", 0.0, 0.0, 60.0),
 )
-_TEXTS = 5
 _TIMEOUT = 180.0  # [s] until all is at rest again
 
 
-def measure(texts: int = _TEXTS) -> list[Figure]:
+def measure(texts: int = 5) -> list[Figure]:
     """One row for each kind of network."""
     if reason := missing(*PROGRAMS):
         return [Figure("three machines", f"not measured: {reason}")]
@@ -77,8 +76,3 @@ def _moves(seen: Seen) -> bool:
 
 def _done(count: int, seen: Seen) -> bool:
     return seen.at_rest and len(seen.outcomes) == count
-
-
-if __name__ == "__main__":
-    for figure in measure():
-        print(f"{figure.what}: {figure.value}")

@@ -2,22 +2,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """Whether a robot that is stopped while it signs keeps every limit, as the driver executes it.
 
-`python -m nodes.stops [STOPS [SEED]]` cancels random sentences of the package's
-table at random moments, has the driver's core execute what the executor's queue has sent, and judges
-velocity, acceleration and jerk by differences of positions a millisecond apart. No DDS: time is simulated.
-Beside them stand stops of robots that do not follow, which are stopped from where joint states showed them.
+Random sentences of the package's table are cancelled at random moments, and the driver's core executes what
+the executor's queue has sent. No DDS: time is simulated. Robots that do not follow are stopped as well, from
+where joint states showed them.
 """
 
 from __future__ import annotations
-
-import sys
-from collections.abc import Iterator
 
 import numpy as np
 from rich.progress import track
 
 from driver_messages import send
-from executed_motion import STEP, executed, following
+from executed_motion import Reached, executed, following, judged
 from queue_world import World
 from report import Figure
 from teo_lut_executor.node.messages import to_stop
@@ -28,10 +24,8 @@ from teo_names import COMMANDED_JOINTS
 from teo_signs.errors import PlanError
 from teo_signs.look_up_table import Lut
 from teo_signs.tokens import parse_printed
-from teo_sim_driver.errors import TrajectoryError
+from teo_sim_driver import TrajectoryError
 
-STOPS = 160
-_SEED = 11
 _SIGNS = 4  # of a sentence
 _MOMENTS = (0.15, 9.0)  # [s] after the sentence came: from its opening to its last sign
 _OPENING, _PLANNING = 0.4, 0.31  # [s], as on the reference machine
@@ -39,26 +33,25 @@ _MOVES = 0.05  # [rad/s]; a robot that is slower is not worth stopping
 _LONGEST = 3.0  # [s] that a stop may take
 _LATE = (0.005, 0.035)  # [s] that a state is old: a period, transport and a step of the queue
 _MILLISECOND = 1_000_000  # [ns]
-_ROUNDING = 1.001  # of positions, seen through three differences
+_ROUNDING = 1e-3  # [1] of the moments of a path that is stopped: whole milliseconds
 
 
-def measure(stops: int = STOPS, seed: int = _SEED) -> list[Figure]:
+def measure(stops: int = 160, seed: int = 11) -> list[Figure]:
     """Stop so many times, and judge each."""
     table, dice = Lut.open(None), np.random.default_rng(seed)
     glosses = [gloss for gloss in table.glosses() if table[gloss].kind == "lexical" and " " not in gloss]
-    most, durations, refusals = [], [], []
+    durations = []
+    reached: list[Reached] = []
+    refusals: list[str] = []
     for _ in track(range(stops), "stops"):
         world, duration = _stopped(table, glosses, dice)
         durations.append(duration)
         try:
-            most.append(world.planner.limits.reached(executed(world), STEP)[1:])
+            reached.append(judged(executed(world)))
         except TrajectoryError as refusal:
             refusals.append(refusal.code)
-    worst = np.max(most, axis=0)
     return [
-        Figure(f"stops of {stops} over a limit", str(int((np.max(most, axis=1) > _ROUNDING).sum()))),
-        Figure("stops that the driver refused", f"{len(refusals)} {' '.join(refusals)}".strip()),
-        Figure("most velocity, acceleration, jerk over the limit", ", ".join(f"{x:.4f}" for x in worst)),
+        *_figures("stops", reached, refusals),
         Figure(
             "time to a standstill", f"median {np.median(durations):.2f} s, longest {max(durations):.2f} s"
         ),
@@ -66,14 +59,12 @@ def measure(stops: int = STOPS, seed: int = _SEED) -> list[Figure]:
     ]
 
 
-def _from_joint_states(
-    stops: int, table: Lut, glosses: list[str], dice: np.random.Generator
-) -> Iterator[Figure]:
+def _from_joint_states(stops: int, table: Lut, glosses: list[str], dice: np.random.Generator) -> list[Figure]:
     """Stops with a single point, planned from a state that is some hundredths of a second old."""
     planner = Planner(table)
-    most: list[tuple[float, ...]] = []
+    reached: list[Reached] = []
     refusals: list[str] = []
-    while len(most) + len(refusals) < stops:
+    while len(reached) + len(refusals) < stops:
         try:
             plan = planner.plan(parse_printed(" ".join(dice.choice(glosses, _SIGNS))))
         except PlanError:
@@ -97,12 +88,18 @@ def _from_joint_states(
             continue
         times = range(now + _MILLISECOND, now + round(lead * 1e9), _MILLISECOND)
         path += [follower.step(time).positions for time in times]
-        most.append(planner.limits.reached(np.array(path), STEP)[1:])
-    what = "stops from joint states"
-    yield Figure(f"{what}, of {stops} over a limit", str(int((np.max(most, axis=1) > _ROUNDING).sum())))
-    yield Figure(f"{what}, refused by the driver", f"{len(refusals)} {' '.join(refusals)}".strip())
-    shares = ", ".join(f"{x:.4f}" for x in np.max(most, axis=0))
-    yield Figure(f"{what}, most velocity, acceleration, jerk over the limit", shares)
+        reached.append(judged(np.array(path)))
+    return _figures("stops from joint states", reached, refusals)
+
+
+def _figures(what: str, reached: list[Reached], refusals: list[str]) -> list[Figure]:
+    over = sum(bool(each.broken(_ROUNDING)) for each in reached)
+    shares = ", ".join(f"{share:.4f}" for share in np.max(reached, axis=0)[1:])
+    return [
+        Figure(f"{what} of {len(reached) + len(refusals)} over a limit", str(over)),
+        Figure(f"{what} that the driver refused", f"{len(refusals)} {' '.join(refusals)}".strip()),
+        Figure(f"{what}: most velocity, acceleration, jerk over the limit", shares),
+    ]
 
 
 def _stopped(table: Lut, glosses: list[str], dice: np.random.Generator) -> tuple[World, float]:
@@ -125,8 +122,3 @@ def _stopped(table: Lut, glosses: list[str], dice: np.random.Generator) -> tuple
     duration = world.now - began
     world.run(0.3)
     return world, duration
-
-
-if __name__ == "__main__":
-    for figure in measure(*(int(number) for number in sys.argv[1:3])):
-        print(f"{figure.what}: {figure.value}")

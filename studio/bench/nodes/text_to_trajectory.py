@@ -10,18 +10,11 @@ run, is the same text echoed by a process that does nothing with it: what DDS al
 
 from __future__ import annotations
 
-import os
 import sys
-import tempfile
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from pathlib import Path
 
 import numpy as np
-import rclpy
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rosgraph_msgs.msg import Clock
@@ -30,14 +23,12 @@ from std_msgs.msg import String
 from teo_sign_msgs.msg import ExecutorStatus
 from trajectory_msgs.msg import JointTrajectory
 
+from nodes.bench_node import BenchNode, bench_graph, seconds
 from report import Figure, percentiles
 from teo_bringup.graph import Graph
 from teo_description.humanoid import load_humanoid
 from teo_names import COMMANDED_JOINTS, HOME
 
-REST = load_humanoid().ready
-
-SENTENCES = 200
 _TEXTS = (
     "¿Qué tal?",
     "Me llamo Ana.",
@@ -61,125 +52,106 @@ rclpy.spin(node)
 """
 
 
-@dataclass
-class _Inbox:
-    """What has arrived since it was last emptied."""
-
-    trajectories: list[JointTrajectory] = field(default_factory=list)
-    arrived: list[float] = field(default_factory=list)  # [s] when each came
-    states: list[int] = field(default_factory=list)
-
-
 class _Robot:
-    """Is where the trajectories say."""
+    """Is where the trajectories say, in a simulated time that can be set forward."""
 
-    def __init__(self) -> None:
+    def __init__(self, node: BenchNode, graph: Graph) -> None:
         """Stand at home."""
+        self._node, self._graph = node, graph
         self._times = np.zeros(1)  # [s]
         self._points = np.array([[HOME[name] for name in COMMANDED_JOINTS]])
+        self._ahead = 0.0  # of real time [s]
+        self._due = 0.0  # [s] of real time, when it tells where it is
+        self.arrived: list[float] = []  # [s] when each answer came
+        self.states: list[int] = []  # of the executor, since the last text
+        self.goal = self._points[0]
+        node.create_subscription(JointTrajectory, "joint_trajectory", self._take, 10)
+        node.create_subscription(String, "echo", lambda _: self.arrived.append(time.perf_counter()), 10)
+        latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        node.create_subscription(
+            ExecutorStatus, "executor_status", lambda status: self.states.append(status.state), latched
+        )
+        self._clock = node.create_publisher(Clock, "clock", 10)
+        self._joints = node.create_publisher(JointState, "joint_states", 10)
 
-    def take(self, message: JointTrajectory, now: float) -> None:
-        """Follow a trajectory from its stamp on, or at once if it has none."""
-        begin = message.header.stamp.sec + message.header.stamp.nanosec * 1e-9 or now
-        before = self._times < begin
-        times = [p.time_from_start.sec + p.time_from_start.nanosec * 1e-9 for p in message.points]
-        points = [p.positions for p in message.points]
-        here = self.at(begin)
-        self._times = np.concatenate([self._times[before], [begin], begin + np.array(times)])
-        self._points = np.concatenate([self._points[before], here[None], points])
+    def wait_for(self, what: str, condition: Callable[[], bool]) -> None:
+        """Tell time and where the robot is, until a condition holds.
 
-    @property
-    def end(self) -> float:
-        """When it stands [s]."""
-        return float(self._times[-1])
-
-    def at(self, now: float) -> np.ndarray:
-        """Positions of the commanded joints at a time [s]. Shape (28,)."""
-        return np.array([np.interp(now, self._times, column) for column in self._points.T])
-
-
-def measure(sentences: int = SENTENCES) -> list[Figure]:
-    """Time from a text to its trajectory and, as the baseline, to its echo."""
-    os.environ.setdefault("ROS_DOMAIN_ID", "19")
-    os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
-    rclpy.init()
-    node = Node("bench")
-    executor = SingleThreadedExecutor()
-    executor.add_node(node)
-    inbox = _Inbox()
-    latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-    robot = _Robot()
-
-    def on_trajectory(message: JointTrajectory) -> None:
-        inbox.arrived.append(time.perf_counter())
-        inbox.trajectories.append(message)
-        robot.take(message, time.monotonic() + ahead)
-
-    def on_echo(_: String) -> None:
-        inbox.arrived.append(time.perf_counter())
-
-    node.create_subscription(JointTrajectory, "joint_trajectory", on_trajectory, 10)
-    node.create_subscription(String, "echo", on_echo, 10)
-    node.create_subscription(
-        ExecutorStatus, "executor_status", lambda m: inbox.states.append(m.state), latched
-    )
-    text = node.create_publisher(String, "text", 10)
-    call = node.create_publisher(String, "call", 10)
-    clock = node.create_publisher(Clock, "clock", 10)
-    joints = node.create_publisher(JointState, "joint_states", 10)
-    state = JointState(name=list(COMMANDED_JOINTS))
-    ahead = 0.0  # of simulated time before real time [s]
-
-    def tick() -> None:
-        now = time.monotonic() + ahead
-        state.header.stamp.sec, state.header.stamp.nanosec = int(now), int(now % 1 * 1e9)
-        here = robot.at(now)
-        state.position, state.velocity = here.tolist(), ((robot.at(now + _TICK) - here) / _TICK).tolist()
-        clock.publish(Clock(clock=state.header.stamp))
-        joints.publish(state)
-
-    def ends_at_rest(message: JointTrajectory) -> bool:
-        return bool(np.allclose(message.points[-1].positions, REST))
-
-    def wait(condition: Callable[[], bool]) -> None:
-        due = time.monotonic()
-        deadline = due + _TIMEOUT
+        Raises:
+            TimeoutError: It does not.
+            GraphError: A process ended.
+        """
+        deadline = time.monotonic() + _TIMEOUT
         while not condition():
             now = time.monotonic()
             if now > deadline:
-                raise TimeoutError(f"no answer within {_TIMEOUT} s")
-            if now >= due:
-                graph.check()
-                tick()
-                due = now + _TICK
-            executor.spin_once(timeout_sec=max(due - time.monotonic(), 0.0))
+                raise TimeoutError(f"expected {what} within {_TIMEOUT} s")
+            if now >= self._due:
+                self._graph.check()
+                self._tell(now + self._ahead)
+                self._due = now + _TICK
+            self._node.spin_once(self._due - time.monotonic())
 
-    def measured(publisher: Publisher, message: String) -> float:
-        inbox.trajectories.clear()
-        inbox.arrived.clear()
+    def measured(self, publisher: Publisher, message: String) -> float:
+        """Time until a text is answered [s]."""
+        self.arrived.clear()
         start = time.perf_counter()
         publisher.publish(message)
-        wait(lambda: bool(inbox.arrived))
-        return inbox.arrived[0] - start
+        self.wait_for("an answer", lambda: bool(self.arrived))
+        return self.arrived[0] - start
 
+    def pass_time(self) -> None:
+        """Set the time past the end of all motion."""
+        self._ahead += float(self._times[-1]) + 0.1 - (time.monotonic() + self._ahead)
+
+    def _take(self, message: JointTrajectory) -> None:
+        """Follow a trajectory from its stamp on, or at once if it has none."""
+        self.arrived.append(time.perf_counter())
+        begin = seconds(message.header.stamp) or time.monotonic() + self._ahead
+        before = self._times < begin
+        times = [begin + seconds(point.time_from_start) for point in message.points]
+        here = self._at(begin)
+        self._times = np.concatenate([self._times[before], [begin], times])
+        self._points = np.concatenate(
+            [self._points[before], here[None], [point.positions for point in message.points]]
+        )
+        self.goal = self._points[-1]
+
+    def _at(self, now: float) -> np.ndarray:
+        """Positions of the commanded joints at a time [s]. Shape (28,)."""
+        return np.array([np.interp(now, self._times, column) for column in self._points.T])
+
+    def _tell(self, now: float) -> None:
+        state = JointState(name=list(COMMANDED_JOINTS))
+        state.header.stamp.sec, state.header.stamp.nanosec = int(now), int(now % 1 * 1e9)
+        here = self._at(now)
+        state.position, state.velocity = here.tolist(), ((self._at(now + _TICK) - here) / _TICK).tolist()
+        self._clock.publish(Clock(clock=state.header.stamp))
+        self._joints.publish(state)
+
+
+def measure(sentences: int = 200) -> list[Figure]:
+    """Time from a text to its trajectory and, as the baseline, to its echo."""
     latencies: dict[str, list[float]] = {"text to trajectory": [], "DDS echo": []}
-    with tempfile.TemporaryDirectory() as folder, Graph(Path(folder)) as graph:
-        graph.start("translator", "ros2", "run", "teo_sign_translator", "translator_node")
-        simulated = ("--ros-args", "-p", "use_sim_time:=true", "-p", "journal:=''")
-        graph.start("executor", "ros2", "run", "teo_lut_executor", "executor_node", *simulated)
+    rest = load_humanoid().ready
+    with bench_graph() as (node, graph):
+        robot = _Robot(node, graph)
+        text, call = (node.create_publisher(String, topic, 10) for topic in ("text", "call"))
+        graph.start_nodes(["translator"])
+        graph.start_nodes(["executor"], ("--ros-args", "-p", "use_sim_time:=true", "-p", "journal:=''"))
         graph.start("echo", sys.executable, "-c", _ECHO)
-        for topic in ("text", "call", "sign_tokens"):
-            wait(lambda topic=topic: node.count_subscribers(topic) == 1)  # type: ignore[misc]
-        wait(lambda: ExecutorStatus.STATE_IDLE in inbox.states)
+        robot.wait_for(
+            "the nodes",
+            lambda: all(node.count_subscribers(topic) == 1 for topic in ("text", "call", "sign_tokens")),
+        )
+        robot.wait_for("the executor", lambda: ExecutorStatus.STATE_IDLE in robot.states)
         for index in range(sentences):
             message = String(data=_TEXTS[index % len(_TEXTS)])
-            latencies["DDS echo"].append(measured(call, message))
-            latencies["text to trajectory"].append(measured(text, message))
-            wait(lambda: ExecutorStatus.STATE_SIGNING in inbox.states)
-            wait(lambda: ends_at_rest(inbox.trajectories[-1]))
-            inbox.states.clear()
-            ahead += robot.end + 0.1 - (time.monotonic() + ahead)
-            wait(lambda: ExecutorStatus.STATE_IDLE in inbox.states)
-    node.destroy_node()
-    rclpy.shutdown()
+            latencies["DDS echo"].append(robot.measured(call, message))
+            latencies["text to trajectory"].append(robot.measured(text, message))
+            robot.wait_for("signing", lambda: ExecutorStatus.STATE_SIGNING in robot.states)
+            robot.wait_for("the whole motion", lambda: bool(np.allclose(robot.goal, rest)))
+            robot.states.clear()
+            robot.pass_time()
+            robot.wait_for("the end", lambda: ExecutorStatus.STATE_IDLE in robot.states)
     return [percentiles(name, values) for name, values in latencies.items()]

@@ -28,7 +28,6 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from command_line.playing import SLEEPER
 from teo_ros2cli.bags.bag import open_bag
 from teo_ros2cli.bags.metadata import read_metadata
 
@@ -38,6 +37,15 @@ PATIENCE = 120.0
 JOINTS = [f"Joint{i:02d}" for i in range(40)]
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 DEEP = QoSProfile(depth=1000)
+# Prints how late it wakes [s], at moments a hundredth of a second apart until it is ended.
+SLEEPER = """
+import time
+begin, i = time.monotonic(), 0
+while True:
+    i += 1
+    time.sleep(max(begin + i / 100 - time.monotonic(), 0))
+    print(time.monotonic() - begin - i / 100, flush=True)
+"""
 
 
 def state(i: int) -> JointState:

@@ -71,7 +71,7 @@ def test_pub_once_reaches_each_of_three_processes_with_each_text(
     ros2: Command,
     start: Any,
 ) -> None:
-    burners, texts = 2, 4  # bench/command_line/publishing_once.py takes twenty
+    burners, texts = 2, 4
     kinds = ("RELIABLE", "BEST_EFFORT", "BEST_EFFORT")
     listeners = [start("-c", LISTENER, kind, program=sys.executable) for kind in kinds]
     for listener in listeners:

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,17 +30,6 @@ DEFAULT_JERK = 105.0
 # Share of the limits that segments are given [1]: positions are rounded to 2e-16 rad, which a driver's period
 # to the third power divides to 1e-10 rad/s^3.
 _HAIR = 1.0 - 1e-9
-
-
-class Reached(NamedTuple):
-    """The most of its limits that a motion reaches."""
-
-    beyond: float
-    """How far a position is outside its limits [rad]; negative inside."""
-    velocity: float
-    """Over the limit [1], as the two below."""
-    acceleration: float
-    jerk: float
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -117,21 +105,6 @@ class MotionLimits:
             acceleration=self.acceleration * _HAIR,
             jerk=self.jerk * _HAIR,
         )
-
-    def reached(self, positions: NDArray[np.float64], step: float) -> Reached:
-        """Judge an executed motion by differences of its positions alone, whatever it says of itself.
-
-        Args:
-            positions: At equal steps of time [rad]; of several stretches, each by itself. Shape
-                (..., steps, n), at least four steps.
-            step: Time between two positions [s].
-        """
-        shares = [
-            float((np.abs(np.diff(positions, order, axis=-2)) / limit).max() / step**order)
-            for order, limit in enumerate((self.velocity, self.acceleration, self.jerk), start=1)
-        ]
-        beyond = max((self.lower - positions).max(), (positions - self.upper).max())
-        return Reached(float(beyond), *shares)
 
     def least_times(self, distances: NDArray[np.float64], columns: list[int]) -> NDArray[np.float64]:
         """Least times in which joints move from rest to rest.

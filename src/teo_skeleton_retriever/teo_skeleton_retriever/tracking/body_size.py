@@ -109,7 +109,7 @@ _LIMBS: dict[str, tuple[tuple[str, str], ...]] = {
     "thigh": (("RHip", "RKnee"), ("LHip", "LKnee")),
     "shank": (("RKnee", "RAnkle"), ("LKnee", "LAnkle")),
 }
-# [m] Of an adult, between the joints, by the 27 people of `bench/accuracy/tuning.py`. Limbs of 1.7 m after
+# [m] Of an adult, between the joints, by 27 rendered people. Limbs of 1.7 m after
 # Drillis and Contini, "Body Segment Parameters" (1966): 0.29 and 0.25.
 _AVERAGE = {"shoulders": 0.36, "upper arm": 0.274, "forearm": 0.236}
 # Power of the shoulders' width that a limb grows with: broad shoulders are not long arms.

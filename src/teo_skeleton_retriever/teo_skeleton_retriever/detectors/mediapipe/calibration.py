@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """How MediaPipe's keypoints differ from the centres of the joints: constant offsets, and standard deviations.
 
-Calibrated on rendered people (`bench/accuracy/tuning.py`); other bodies and motions are tested.
+Calibrated on rendered people; other bodies and motions are tested.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class Shift(NamedTuple):
 # MediaPipe puts shoulders too high, too far in and nearer to the trunk than a raised arm takes them, elbows
 # short of the joint. A shift is a share of a vector between two keypoints, so that it shrinks with distance
 # and when the person turns, as the shift in space does. Robust least squares (Huber, 30 mm) over 82 people,
-# most of them in motions by chance (`bench/accuracy/tuning.py`); in 71 other takes shoulders are 5 %
+# most of them in motions by chance; in 71 other takes shoulders are 5 %
 # nearer for it than with shares of shoulders and trunk alone, elbows 4 % nearer than with one of the upper
 # arm alone. Wrists are short by nothing that could be told.
 BODY_SHIFTS: tuple[Shift, ...] = (
@@ -158,7 +158,7 @@ _WRIST_SIGMA = (0.015, 0.015, 0.015, 0.016, 0.018, 0.035)
 _ELBOW_SIGMA = (0.02, 0.02, 0.02, 0.025, 0.035, 0.05)
 _POINTED_ELBOW_SIGMA = (0.02, 0.03, 0.045, 0.06, 0.08, 0.1)
 # [m] And by how much it is seen too near to the shoulder: 7, 34, 50 and 58 mm from a doubt of 0.01 on,
-# medians of 1,160 elbows of `bench/accuracy/tuning.py` (others: 5, 15, 25 and 50); of other forearms by none.
+# medians of 1,160 elbows of those people (others: 5, 15, 25 and 50); of other forearms by none.
 _POINTED_ELBOW_SHORT = (0.0, 0.0, 0.01, 0.025, 0.04, 0.055)
 # Part of a forearm's length that is seen across the view: of one that points at the camera, and of one that
 # does not; between, errors grow from the one to the other.

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Somebody who sees what is published, what becomes of it, and how the robot moves.
 
-As a process, `python -m nodes.witness`, it prints what it knows five times a second as a line of JSON, for
+As a process, `python -m witness`, it prints what it knows five times a second as a line of JSON, for
 those who cannot be where it is: in another machine's network.
 """
 
