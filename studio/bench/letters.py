@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from report import Figure
 from teo_description.robot import Robot
-from teo_sign_authoring.transfer.letter_likeness import Likeness, letter_likenesses
+from teo_sign_authoring.alphabet.letter_likeness import Likeness, letter_likenesses
 from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.look_up_table import Lut, default_lut_directory
 

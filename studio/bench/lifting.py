@@ -15,8 +15,8 @@ import numpy as np
 from report import Figure, spread
 from signs.performed import pictured, script_track
 from teo_common.arrays import Array
-from teo_sign_capture.lifting.clip import lift_clip
-from teo_sign_capture.tracks.hand_shape import palm_axes
+from teo_skeleton_retriever.lifting.lifted_person import lift_clip
+from teo_skeleton_retriever.lifting.hand_axes import palm_axes
 from teo_sign_capture.tracks.skeleton_track import ELBOW, SHOULDER, WRIST, SkeletonTrack
 
 SCRIPTS = ("signing", "face", "crossing", "spelling")

@@ -29,13 +29,14 @@ from teo_description.robot import Robot
 from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 from teo_sign_authoring.notation.performance import performance
 from teo_sign_authoring.notation.score_schema import Score
-from teo_sign_capture.lifting.clip import lift_clip
-from teo_sign_capture.recognition.appearance import MOMENTS, recording_appearance, sign_appearance
-from teo_sign_capture.recognition.sign_index import SignIndex
-from teo_sign_capture.recordings.recording import open_recording, points_of
+from teo_skeleton_retriever.lifting.lifted_person import lift_clip
+from teo_sign_capture.recognition import MOMENTS, recording_appearance, sign_appearance
+from teo_sign_capture.recognition import SignIndex
+from teo_sign_capture.recordings.recording import open_recording
+from teo_skeleton_retriever.depth.filtered_keypoints import points_of
 from teo_sign_capture.retarget.arm_kinematics import mirrored
 from teo_sign_capture.retarget.robot_motion import free_motion
-from teo_sign_capture.tracks.person import measure_person
+from teo_sign_capture.tracks.signer_motion import measure_person
 from teo_sign_capture.tracks.segmentation import the_sign
 from teo_sign_capture.tracks.signer_motion import signer_motion
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
@@ -47,7 +48,7 @@ from teo_signs.sign import Sign
 from teo_synthetic_signer import Take, TakeOptions
 from teo_synthetic_signer.body.body_shapes import BODIES
 from teo_synthetic_signer.errors import SyntheticError
-from teo_synthetic_signer.take.take_film import write_film
+from teo_synthetic_signer.take.take_files import write_film
 
 BODIES |= random_people(3, 61_409, "learner")
 # Drawn when the units were chosen. Looked at, it is known, and another is to be drawn.

@@ -25,8 +25,8 @@ from teo_sign_capture.recordings.skeleton_bag import read_skeletons
 from teo_sign_capture.retarget.arm_kinematics import mirrored
 from teo_sign_capture.retarget.body_map import body_boxes, on_skin
 from teo_sign_capture.retarget.robot_motion import retarget_motion
-from teo_sign_capture.signing_space.hand_points import MIRROR
-from teo_sign_capture.tracks.hand_shape import finger_bends, in_palm, palm_axes
+from teo_sign_capture.signing_space import MIRROR
+from teo_skeleton_retriever.lifting.hand_axes import finger_bends, in_palm, palm_axes
 from teo_sign_capture.tracks.signer_motion import signer_motion
 from teo_sign_capture.tracks.skeleton_track import (
     EAR,

@@ -16,7 +16,7 @@ import numpy as np
 from teo_common.arrays import Array
 from teo_description.hand_geometry import HandGeometry, HandTable
 from teo_description.humanoid import Humanoid, load_humanoid
-from teo_description.schema.hand import FINGERS
+from teo_description.robot_schema import FINGERS
 from teo_skeleton_retriever.lifting.hand_axes import KNUCKLES, WRIST
 
 # Seen from the right hand, in ``base_link`` (REP-103: x front, y left, z up). The left hand mirrors them, so

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from teo_common.arrays import Array
 from teo_description.robot import Robot
-from teo_description.schema.body import Turning
+from teo_description.robot_schema import Turning
 from teo_sign_capture.signing_space import find_place
 from teo_sign_capture.tracks.head_pose import HeadPose
 from teo_sign_capture.tracks.signer_motion import Person

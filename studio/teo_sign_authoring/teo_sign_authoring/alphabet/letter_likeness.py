@@ -23,9 +23,9 @@ from teo_motion.sentence.plan import sample_at
 from teo_motion.sentence.posture_choice import postures_of
 from teo_sign_authoring.alphabet.letter_clips import LetterClip, find_stroke
 from teo_sign_authoring.alphabet.letters import read_alphabet
-from teo_sign_capture.signing_space.hand_points import finger_rows
-from teo_sign_capture.time_warp import warp
-from teo_sign_capture.tracks.hand_shape import KNUCKLES, THUMB, palm_axes
+from teo_sign_capture.signing_space import finger_rows
+from teo_common.dynamic_programming import warp
+from teo_skeleton_retriever.lifting.hand_axes import KNUCKLES, THUMB, palm_axes
 from teo_sign_languages import Language
 from teo_signs.likeness import SEEN_ANGLE, SEEN_LENGTH
 from teo_signs.sign import Sign

@@ -38,7 +38,7 @@ from teo_sign_capture.retarget.arm_residuals import ArmProblem, ArmWeights
 from teo_sign_capture.retarget.arm_trajectory import search_arms
 from teo_sign_capture.retarget.hand_goals import HandGoals
 from teo_sign_capture.retarget.knots import least_clearance
-from teo_sign_capture.signing_space.places import find_place
+from teo_sign_capture.signing_space import find_place
 
 # [m] What the face reaches beyond its places: below the chin, to the side of an ear, behind the mouth, which
 # is on the surface that counts in a collision; it ends so much below the crown.

@@ -28,10 +28,10 @@ from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.trajectory.limits import MotionLimits
 from teo_sign_authoring.easing.linear_program import BEYOND, LinearProgram
 from teo_sign_authoring.easing.word_tolerance import WordTolerance
-from teo_sign_capture.recognition.appearance import sign_appearance
-from teo_sign_capture.recognition.sign_index import SignIndex, distance_between
+from teo_sign_capture.recognition import sign_appearance
+from teo_sign_capture.recognition import SignIndex, distance_between
 from teo_signs.errors import PlanError
-from teo_signs.motion_hash import with_alternatives
+from teo_signs.sign import with_alternatives
 from teo_signs.sign import Sign
 from teo_signs.tokens import Token
 

@@ -27,7 +27,7 @@ from teo_sign_capture.retarget.arm_kinematics import (
     mirrored_hand,
 )
 from teo_sign_capture.retarget.knots import clearance_mm, least_clearance, limit_margin_deg
-from teo_sign_capture.signing_space.hand_points import MIRROR
+from teo_sign_capture.signing_space import MIRROR
 from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import LutError
 from teo_signs.sign import Form, Sign

@@ -26,7 +26,7 @@ from teo_sign_authoring.signwriting.written_sign import (
     Symbol,
     symbols_of,
 )
-from teo_sign_capture.signing_space.places import written_place
+from teo_sign_capture.signing_space import written_place
 
 _HEAD_RADIUS = 18.0  # [px]
 _PAGE_MIDDLE = np.array([500.0, 500.0])

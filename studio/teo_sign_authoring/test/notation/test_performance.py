@@ -18,7 +18,7 @@ from teo_sign_authoring.notation import handshapes
 from teo_sign_authoring.notation.performance import REST, WAY, Performance, performance
 from teo_sign_authoring.notation.score_file import default_scores_directory, read_score
 from teo_sign_authoring.notation.score_schema import Score
-from teo_sign_capture.signing_space.places import OTHER_HAND, direction
+from teo_sign_capture.signing_space import OTHER_HAND, direction
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_synthetic_signer.body.body_data import load_body_data
 from teo_synthetic_signer.body.signer import Signer

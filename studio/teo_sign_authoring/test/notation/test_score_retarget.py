@@ -15,7 +15,7 @@ from teo_names import LEFT_ARM, RIGHT_ARM, joint_limits
 from teo_sign_authoring.notation.score_file import default_scores_directory, read_score, read_scores
 from teo_sign_authoring.notation.score_retarget import score_sign
 from teo_sign_capture.retarget.body_map import body_boxes
-from teo_sign_capture.signing_space.places import NAMES, OTHER_HAND, find_place
+from teo_sign_capture.signing_space import NAMES, OTHER_HAND, find_place
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign import Sign

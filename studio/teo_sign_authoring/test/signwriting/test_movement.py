@@ -10,7 +10,7 @@ import pytest
 from teo_sign_authoring.signwriting.hand_symbols import orientation_of, written_side
 from teo_sign_authoring.signwriting.movement import Circling, Path, Swinging, movement_of
 from teo_sign_authoring.signwriting.written_sign import read_fsw
-from teo_sign_capture.signing_space.places import direction
+from teo_sign_capture.signing_space import direction
 
 UP, DOWN, LEFT, RIGHT = (0, 0, 1), (0, 0, -1), (0, 1, 0), (0, -1, 0)
 FRONT, BACK = (1, 0, 0), (-1, 0, 0)
