@@ -21,7 +21,7 @@ from glosses.systems import SENTENCES, lines
 from report import Figure
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
-from teo_motion.torque import PeakTorque, peak_torques
+from teo_motion.sentence.plan import PeakTorque, peak_torques
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.morphology.tags import tag_class

@@ -23,9 +23,8 @@ from typer.testing import CliRunner, Result
 
 from teo_description.humanoid import load_humanoid
 from teo_lut_executor.cli.lut import app
-from teo_motion.lone_sign import sign_motion
-from teo_motion.planner import Planner
-from teo_motion.sentence.rest_posture import RestPosture
+from teo_motion.planner import Planner, sign_motion
+from teo_motion.sentence.signing_style import RestPosture
 from teo_names import COMMANDED_JOINTS, HOME, RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_signs.errors import LutError
 from teo_signs.export.play_motion2 import play_motion2_parameters

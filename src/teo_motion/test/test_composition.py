@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from teo_motion.sentence.composition import Composition, compose
-from teo_motion.sentence.rhythm import SigningStyle
+from teo_motion.sentence.signing_style import SigningStyle
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import State
 from teo_names import COMMANDED_JOINTS, LEFT_ARM, RIGHT_HAND

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from teo_motion.sentence.head_gestures import head_gestures
-from teo_motion.sentence.sentence_form import STATEMENT, SentenceForm, SentenceType
+from teo_motion.sentence.sentence_form import STATEMENT, SentenceForm, SentenceType, head_gestures
 from teo_sign_languages import HeadGrammar, load_language
 from teo_signs.tokens import parse_printed
 

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from teo_motion.head.lean import Leaning
+from teo_motion.neck_paths import Leaning
 from teo_motion.trajectory.joint_motion import JointMotion, JointMotionBuilder
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.splice import Splicer

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from teo_description.humanoid import load_humanoid
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
-from teo_motion.sentence.rhythm import SigningStyle
+from teo_motion.sentence.signing_style import SigningStyle
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import Bounds, RuckigSolver, State
 from teo_names import COMMANDED_JOINTS, LEFT_ARM, LEFT_HAND, RIGHT_ARM

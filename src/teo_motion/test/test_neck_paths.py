@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from teo_motion.head.neck_paths import GestureWindow, hold_paths, nod_paths, shake_paths
+from teo_motion.neck_paths import GestureWindow, hold_paths, nod_paths, shake_paths
 from teo_motion.trajectory.joint_motion import JointMotion, JointMotionBuilder
 from teo_motion.trajectory.limits import MotionLimits
 

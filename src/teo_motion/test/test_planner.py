@@ -9,10 +9,9 @@ import numpy as np
 import pytest
 
 from teo_description.robot import Robot
-from teo_motion.planner import DEFAULT_PERIOD, Planner, plan
+from teo_motion.planner import DEFAULT_PERIOD, Planner
 from teo_motion.sentence.plan import Plan
-from teo_motion.sentence.rest_posture import RestPosture
-from teo_motion.sentence.rhythm import SigningStyle
+from teo_motion.sentence.signing_style import RestPosture, SigningStyle
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import State
 from teo_names import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM
@@ -45,8 +44,10 @@ def refused(planner: Planner, tokens: list[Token], start: State | None = None) -
     return refusal.value.code
 
 
-def test_a_plan_is_made_of_tokens_and_a_table_alone(table: Mapping[str, Sign]) -> None:
-    result = plan(parse_printed("TÚ A-N-A"), table)
+def test_a_plan_has_a_row_of_all_joints_for_each_instant_and_a_time_for_each_token(
+    table: Mapping[str, Sign], robot: Robot
+) -> None:
+    result = Planner(table, robot=robot).plan(parse_printed("TÚ A-N-A"))
     assert result.names == COMMANDED_JOINTS
     assert result.positions.shape == (len(result.times), 28)
     assert [timing.token.gloss for timing in result.timings] == ["TÚ", "A", "N", "A"]

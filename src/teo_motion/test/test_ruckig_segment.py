@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from teo_motion.trajectory.ruckig_segment import Bounds, RuckigSegment, RuckigSolver, State
-from teo_motion.trajectory.waypoint_states import waypoint_states
+from teo_motion.trajectory.waypoint_chain import waypoint_states
 from teo_signs.errors import PlanError
 
 numbers = st.floats(-1.0, 1.0)

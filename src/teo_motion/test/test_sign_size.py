@@ -13,8 +13,8 @@ from nearest_parts import touching
 
 from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
-from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.sentence.sign_size import SignSize
+from teo_motion.sentence.signing_style import SigningStyle
 from teo_motion.trajectory.limits import MotionLimits
 from teo_names import COMMANDED_JOINTS, RIGHT_ARM, RIGHT_HAND
 from teo_signs.errors import PlanError

@@ -23,9 +23,8 @@ from teo_description.humanoid import DEFAULT_ROBOT, Humanoid
 from teo_description.robot import Robot
 from teo_lut_executor.cli.options import LanguageCode, RobotName
 from teo_motion.planner import Planner
-from teo_motion.sentence.plan import Plan, sample_at
+from teo_motion.sentence.plan import Plan, peak_torques, sample_at
 from teo_motion.sentence.sentence_form import SentenceType, printed_form, without_marks
-from teo_motion.torque import peak_torques
 from teo_motion.trajectory.limits import DEFAULT_ACCELERATION, DEFAULT_JERK, MotionLimits
 from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import LutError, PlanError

@@ -12,8 +12,7 @@ from teo_common.parameters import AUTOSTART, ROBOT, ParameterRow
 from teo_lut_executor.execution.events import Preemption, QueueSettings
 from teo_lut_executor.planning.settings import PlannerSettings
 from teo_motion.planner import DEFAULT_CLEARANCE, DEFAULT_MAX_DURATION, DEFAULT_PERIOD
-from teo_motion.sentence.rest_posture import DEFAULT_REST, RestPosture
-from teo_motion.sentence.rhythm import SigningStyle
+from teo_motion.sentence.signing_style import DEFAULT_REST, RestPosture, SigningStyle
 from teo_motion.trajectory.limits import DEFAULT_ACCELERATION, DEFAULT_JERK
 from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import PlanError

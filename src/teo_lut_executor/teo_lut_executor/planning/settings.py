@@ -11,8 +11,7 @@ from pathlib import Path
 from teo_description.humanoid import DEFAULT_ROBOT, load_humanoid
 from teo_description.robot import Robot
 from teo_motion.planner import DEFAULT_CLEARANCE, DEFAULT_MAX_DURATION, DEFAULT_PERIOD, Planner
-from teo_motion.sentence.rest_posture import DEFAULT_REST, RestPosture
-from teo_motion.sentence.rhythm import SigningStyle
+from teo_motion.sentence.signing_style import DEFAULT_REST, RestPosture, SigningStyle
 from teo_motion.trajectory.limits import DEFAULT_ACCELERATION, DEFAULT_JERK, MotionLimits
 from teo_sign_languages import DEFAULT_LANGUAGE, Language
 from teo_signs.lexicon import DEFAULT_STANDING

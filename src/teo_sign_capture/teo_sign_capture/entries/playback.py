@@ -14,7 +14,7 @@ from teo_common.arrays import Array
 from teo_description.robot import Robot
 from teo_motion.planner import DEFAULT_PERIOD, Planner
 from teo_motion.sentence.plan import Plan, sample_at
-from teo_motion.sentence.rhythm import SigningStyle
+from teo_motion.sentence.signing_style import SigningStyle
 from teo_sign_capture.retarget.knots import tube_radii
 from teo_signs.errors import LutError, PlanError
 from teo_signs.sign import Sign

@@ -17,7 +17,7 @@ import numpy as np
 from teo_common.arrays import Array
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
-from teo_motion.sentence.rhythm import SigningStyle
+from teo_motion.sentence.signing_style import SigningStyle
 from teo_motion.trajectory.limits import MotionLimits
 from teo_sign_authoring.easing.easy_words import EasyWords, neighbours
 from teo_sign_authoring.easing.word_tolerance import WordTolerance
