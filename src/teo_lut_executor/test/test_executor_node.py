@@ -30,7 +30,7 @@ from teo_sign_msgs.msg import ExecutorStatus, SignSentence, SignToken
 from teo_sign_msgs.srv import GetSign, ListQueue, ListSigns
 
 from teo_description.humanoid import load_humanoid
-from teo_lut_executor.execution.events import Sentence
+from teo_lut_executor.execution.interface import Sentence
 from teo_lut_executor.execution.journal import Journal
 from teo_lut_executor.node.executor_node import ExecutorNode
 from teo_lut_executor.node.parameters import PARAMETERS

@@ -9,7 +9,7 @@ import pytest
 
 from queue_world import World
 from teo_description.humanoid import load_humanoid
-from teo_lut_executor.execution.events import (
+from teo_lut_executor.execution.interface import (
     Activity,
     Begun,
     Outcome,

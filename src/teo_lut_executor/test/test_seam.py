@@ -11,7 +11,7 @@ import pytest
 
 from executed_motion import STEP, executed
 from queue_world import World
-from teo_lut_executor.execution.events import Preemption, QueueSettings
+from teo_lut_executor.execution.interface import Preemption, QueueSettings
 from teo_signs.sign import Sign
 
 

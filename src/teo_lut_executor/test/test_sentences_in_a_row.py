@@ -11,7 +11,7 @@ import pytest
 
 from queue_world import TICK, World
 from teo_description.humanoid import load_humanoid
-from teo_lut_executor.execution.events import (
+from teo_lut_executor.execution.interface import (
     Activity,
     DriverMode,
     Outcome,

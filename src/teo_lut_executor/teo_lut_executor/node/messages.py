@@ -14,7 +14,7 @@ from teo_sign_msgs.msg import TokenTiming as TokenTimingMessage
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from teo_common.arrays import Array
-from teo_lut_executor.execution.events import DriverMode, DriverReport, Sentence, Status
+from teo_lut_executor.execution.interface import DriverMode, DriverReport, Sentence, Status
 from teo_motion.sentence.plan import Samples, TokenTiming
 from teo_motion.sentence.sentence_form import SentenceForm, SentenceType
 from teo_motion.trajectory.ruckig_segment import State
