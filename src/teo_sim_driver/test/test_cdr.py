@@ -12,10 +12,9 @@ from rclpy.serialization import serialize_message
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from teo_names import LEG_JOINTS
-from teo_sim_driver.checking.cdr import FIELDS, CdrTrajectory
+from teo_sim_driver.checking.reading import FIELDS, CdrTrajectory
 from teo_sim_driver.checking.validation import check
-from teo_sim_driver.errors import TrajectoryError
-from teo_sim_driver.rules import Rules
+from teo_sim_driver.rules import Rules, TrajectoryError
 
 
 def assert_same(message):

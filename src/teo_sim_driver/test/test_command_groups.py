@@ -10,11 +10,9 @@ from driver_messages import trajectory_message
 from teo_description.humanoid import load_humanoid
 from teo_names import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM
 from teo_sim_driver.checking.validation import check
-from teo_sim_driver.errors import TrajectoryError
 from teo_sim_driver.follower_report import Mode, Source
-from teo_sim_driver.groups import joint_groups
 from teo_sim_driver.motion.path_time import SECOND
-from teo_sim_driver.rules import Rules
+from teo_sim_driver.rules import Rules, TrajectoryError, joint_groups
 
 START = 1_700_000_000 * SECOND
 PERIOD = 10_000_000

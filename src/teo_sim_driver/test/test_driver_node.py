@@ -24,9 +24,9 @@ from teo_sign_msgs.msg import DriverState
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from teo_names import ALL_JOINTS, HOME, LEG_JOINTS, urdf_text
-from teo_sim_driver.errors import DriverError
 from teo_sim_driver.node.driver_node import DriverNode
 from teo_sim_driver.parameters import PARAMETERS
+from teo_sim_driver.rules import DriverError
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
@@ -281,7 +281,7 @@ def test_a_fault_of_its_own_is_reported_and_does_not_end_it(bench, one_way, monk
         raise ZeroDivisionError("on purpose")
 
     with monkeypatch.context() as patch:
-        patch.setattr("teo_sim_driver.checking.intake.check", fault)
+        patch.setattr("teo_sim_driver.checking.validation.check", fault)
         bench.commands.publish(one_way())
         bench.until(lambda: bench.diagnostics and bench.said("last refusal code") == "internal")
     assert "on purpose" in bench.said("last refusal")

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from teo_sim_driver.errors import Refusal, TrajectoryError
 from teo_sim_driver.goal_monitor import GoalMonitor, ResultCode, Tolerances, result_code
 from teo_sim_driver.motion.trajectory import MotionState
+from teo_sim_driver.rules import Refusal, TrajectoryError
 
 JOINTS = ("neck", "elbow")
 

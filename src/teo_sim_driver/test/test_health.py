@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 
 from teo_common.diagnostics import Level, RateMeter, RateReport
-from teo_sim_driver.errors import Refusal, TrajectoryError
-from teo_sim_driver.health import RefusalLog, assess
+from teo_sim_driver.follower_report import RefusalLog, assess
+from teo_sim_driver.rules import Refusal, TrajectoryError
 
 GOOD_RATE = RateReport(99.9, 0.011, 0.0005)
 

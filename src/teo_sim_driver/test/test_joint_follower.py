@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from driver_messages import send, trajectory_message
-from teo_sim_driver.errors import DriverError, TrajectoryError
 from teo_sim_driver.follower_report import Mode
 from teo_sim_driver.motion.path_time import SECOND
+from teo_sim_driver.rules import DriverError, TrajectoryError
 
 START = 1_700_000_000 * SECOND
 PERIOD = 10_000_000

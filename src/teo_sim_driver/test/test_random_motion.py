@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 
 from driver_messages import send, trajectory_message
 from teo_description.humanoid import load_humanoid
-from teo_sim_driver.errors import Refusal, TrajectoryError
 from teo_sim_driver.follower_report import Mode
 from teo_sim_driver.motion.path_time import SECOND, Braking
+from teo_sim_driver.rules import Refusal, TrajectoryError
 
 START = 1_700_000_000 * SECOND
 FRACTIONS = np.linspace(0.0, 1.0, 401)

@@ -7,8 +7,8 @@ import pytest
 
 from driver_messages import send, trajectory_message
 from teo_names import COMMANDED_JOINTS
-from teo_sim_driver.errors import TrajectoryError
 from teo_sim_driver.motion.path_time import SECOND
+from teo_sim_driver.rules import TrajectoryError
 
 START = 1_700_000_000 * SECOND
 ELBOW = COMMANDED_JOINTS.index("FrontalRightElbow")

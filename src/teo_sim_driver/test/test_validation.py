@@ -13,9 +13,8 @@ from driver_messages import trajectory_message
 from teo_names import LEG_JOINTS
 from teo_sim_driver.checking.scheduling import schedule
 from teo_sim_driver.checking.validation import check as check_message
-from teo_sim_driver.errors import Refusal, TrajectoryError
 from teo_sim_driver.motion.trajectory import MotionState
-from teo_sim_driver.rules import Rules
+from teo_sim_driver.rules import Refusal, Rules, TrajectoryError
 
 NOW = 1_000_000_000_000  # [ns]
 ELBOW = "FrontalRightElbow"

@@ -18,13 +18,12 @@ from nodes.driver_rate import PERIOD, wave
 from report import Figure
 from teo_motion.trajectory.limits import MotionLimits
 from teo_names import COMMANDED_JOINTS, HOME, LEG_JOINTS, joint_limits
-from teo_sim_driver.checking.intake import MOST_WAITING, Intake
-from teo_sim_driver.errors import Refusal, TrajectoryError
+from teo_sim_driver.checking.validation import MOST_WAITING, Intake
 from teo_sim_driver.follower_report import Mode
 from teo_sim_driver.joint_follower import JointFollower
 from teo_sim_driver.motion.path_time import SECOND
 from teo_sim_driver.motion.trajectory import Trajectory
-from teo_sim_driver.rules import Rules
+from teo_sim_driver.rules import Refusal, Rules, TrajectoryError
 
 MESSAGES, STOPS = 100_000, 1_000
 _POINTS = 20

@@ -28,7 +28,7 @@ from teo_names import COMMANDED_JOINTS
 from teo_signs.errors import PlanError
 from teo_signs.look_up_table import Lut
 from teo_signs.tokens import parse_printed
-from teo_sim_driver.errors import TrajectoryError
+from teo_sim_driver.rules import TrajectoryError
 
 STOPS = 160
 _SEED = 11
