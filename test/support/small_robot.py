@@ -14,12 +14,14 @@ import numpy as np
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState
 from teo_sign_msgs.msg import ExecutorStatus, SignSentence, SignToken
 from trajectory_msgs.msg import JointTrajectory
 
 from teo_lut_executor.node.executor_node import ExecutorNode
+from teo_lut_executor.node.parameters import PARAMETERS
 from teo_names import COMMANDED_JOINTS, HOME
 from teo_signs.tokens import parse_printed
 
@@ -84,11 +86,30 @@ class Graph:
     directory: Path
     utterances: int = field(default=0)
 
+    def __post_init__(self) -> None:
+        self._started = {row.name: self.node.get_parameter(row.name) for row in PARAMETERS}
+
     def spin_until(self, condition: Callable[[], bool], timeout: float = 90.0) -> None:
         deadline = time.monotonic() + timeout
         while not condition():
             assert time.monotonic() < deadline, f"not within {timeout} s"
             self.executor.spin_once(timeout_sec=0.1)
+
+    def begin_anew(self) -> None:
+        """Wait until it rests with nothing queued; restore its parameters and forget what it said."""
+        self.robot.silent = False
+        self.node.set_parameters(
+            [parameter for parameter in self._started.values() if self._differs(parameter)]
+        )
+        self.spin_until(lambda: self.robot.states()[-1:] == [ExecutorStatus.STATE_IDLE], timeout=20.0)
+        assert not self.robot.statuses[-1].queued
+        self.utterances = 0
+        del self.robot.statuses[:-1]
+        self.robot.received.clear()
+        self.robot.path.clear()
+
+    def _differs(self, parameter: Parameter) -> bool:
+        return bool(self.node.get_parameter(parameter.name).value != parameter.value)
 
     def rest(self, signed: int) -> None:
         """Spin until so many sentences have been signed, and nothing is left to do."""

@@ -55,12 +55,6 @@ def test_the_range_of_a_move_is_exact(
     assert least[0] >= dense.min() - 0.87 * step and greatest[0] <= dense.max() + 0.87 * step
 
 
-def test_a_move_longer_than_needed_takes_the_time_it_is_given() -> None:
-    segment = moved((0.0, 0.0, 0.0), (0.5, 0.0, 0.0), 2.0)
-    assert segment is not None
-    assert segment.duration == pytest.approx(2.0)
-
-
 @pytest.mark.parametrize("bad", [np.nan, np.inf])
 def test_the_solver_is_not_given_what_is_no_number(bad: float) -> None:
     with pytest.raises(PlanError) as refusal:

@@ -34,7 +34,7 @@ def assert_same(message):
             assert read.table(field).tolist() == rows
 
 
-@settings(max_examples=100)
+@settings(max_examples=60)
 @given(
     seed=st.integers(0, 2**32),
     joints=st.integers(0, 30),
@@ -87,7 +87,7 @@ def test_spoilt_bytes_get_a_reason(swing, limits):
     good = bytearray(serialize_message(swing(duration=1.0, angle=-0.1)))
     codes = set()
 
-    @settings(max_examples=500)
+    @settings(max_examples=200)
     @given(
         cut=st.integers(0, len(good)),
         flips=st.lists(st.tuples(st.integers(0, len(good) - 1), st.integers(0, 255)), max_size=4),

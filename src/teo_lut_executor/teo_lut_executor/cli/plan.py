@@ -54,10 +54,10 @@ class _Type(enum.Enum):
 _out = Console()
 _err = Console(stderr=True)
 # No markup in the help: it would swallow units in brackets.
-_app = typer.Typer(add_completion=False, rich_markup_mode=None)
+app = typer.Typer(add_completion=False, rich_markup_mode=None)
 
 
-@_app.command()
+@app.command()
 def _plan(
     sentence: Annotated[
         str,
@@ -214,7 +214,7 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):
         # Whatever the locale says, glosses go out as UTF-8.
         stream.reconfigure(encoding="utf-8", errors="backslashreplace")  # type: ignore[union-attr]
-    _app()
+    app()
 
 
 if __name__ == "__main__":

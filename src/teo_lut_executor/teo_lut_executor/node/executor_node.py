@@ -140,7 +140,7 @@ class ExecutorNode(SelfStartingNode):
             self.create_timer(1.0 / _FEEDBACK_RATE, self._give_feedback),
             self.create_timer(DIAGNOSTICS_PERIOD, self._publish_diagnostics),
         ]
-        self._services = Services(self, self._lut, self._queue, now=self._now, carry_out=self._carry_out)
+        self._offered = Services(self, self._lut, self._queue, now=self._now, carry_out=self._carry_out)
         self._intake = SentenceIntake(
             self,
             self._queue,
@@ -161,7 +161,7 @@ class ExecutorNode(SelfStartingNode):
         self._planning.close()
         self._intake.close()
         self._driver.close()
-        self._services.close()
+        self._offered.close()
         for entity in self._entities:
             for destroy in (
                 self.destroy_publisher,
@@ -185,7 +185,7 @@ class ExecutorNode(SelfStartingNode):
                 f"expected a sentence of {language.names.short} ({language.code}), the language in use, got "
                 f"one of {sentence.language!r}; give executor and translator the same parameter language",
             )
-        self._services.refresh()
+        self._offered.refresh()
         self._checker.check(sentence.tokens, form=sentence.form)
 
     def _take(self, events: Sequence[Effect]) -> None:
@@ -298,7 +298,7 @@ class ExecutorNode(SelfStartingNode):
             return
         settings = planner_settings_from(self._values())
         if "language" in {item.name for item in parameters}:
-            self._lut = self._services.lut = self._next_lut
+            self._lut = self._offered.lut = self._next_lut
             self.get_logger().info(f"{len(self._lut)} signs of {self._lut.place}")
         self._checker = settings.planner(self._lut, None, self._lut.language)
         self._planning.configure(settings)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Whether a trajectory keeps within the joint limits, at its points and between them; in a thread of its own."""
+"""Whether a trajectory keeps within the joint limits, at its points and between; in a thread of its own."""
 
 from __future__ import annotations
 
