@@ -18,6 +18,7 @@ from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import JointState
+from simulated_clock import SECOND, SimulatedClock
 from std_msgs.msg import Float64MultiArray, String
 from teo_sign_msgs.msg import DriverState
 from trajectory_msgs.msg import JointTrajectory
@@ -296,3 +297,38 @@ def test_parameters_may_be_given_at_the_start(new_bench, one_way):
     bench.commands.publish(one_way(joint="RightIndexFinger", angle=np.radians(39.0), duration=1.875))
     bench.until(lambda: bench.diagnostics and bench.said("last refusal code") == "velocity_limit")
     assert "RightIndexFinger" in bench.said("last refusal")
+
+
+@pytest.fixture
+def clock(context):
+    clock = SimulatedClock(context, rate=2.5)
+    yield clock
+    clock.close()
+
+
+def stamp(state):
+    return state.header.stamp.sec * SECOND + state.header.stamp.nanosec
+
+
+def test_by_a_simulators_clock_the_path_is_executed_in_simulated_time(clock, new_bench, one_way):
+    elbow = ALL_JOINTS.index("FrontalRightElbow")
+    bench = new_bench(parameter_overrides=[Parameter("use_sim_time", value=True)])
+    trajectory = one_way(duration=2.0, angle=-0.4)
+    start = clock.now + SECOND
+    trajectory.header.stamp.sec, trajectory.header.stamp.nanosec = divmod(start, SECOND)
+    bench.commands.publish(trajectory)
+    bench.until(lambda: bench.states[-1].position[elbow] < -0.1)
+    clock.pause()
+    for _ in range(10):
+        bench.executor.spin_once(timeout_sec=0.02)
+    heard = len(bench.states)
+    for _ in range(10):
+        bench.executor.spin_once(timeout_sec=0.02)
+    assert len(bench.states) == heard  # no time passes, nothing moves
+    clock.go_on()
+    bench.until(lambda: bench.states[-1].position[elbow] == -0.4)
+    # Where the elbow is says nothing but the stamp: the curve that was sent, in closed form.
+    u = np.clip([(stamp(state) - start) / (2.0 * SECOND) for state in bench.states], 0.0, 0.5)
+    truth = -0.4 * (4.0 * u * (1.0 - u)) ** 3
+    np.testing.assert_allclose([state.position[elbow] for state in bench.states], truth, atol=1e-4)
+    assert len(np.unique(u)) > 10
