@@ -101,7 +101,7 @@ class Graph:
         self.node.set_parameters(
             [parameter for parameter in self._started.values() if self._differs(parameter)]
         )
-        self.spin_until(lambda: self.robot.states()[-1:] == [ExecutorStatus.STATE_IDLE], timeout=20.0)
+        self.spin_until(lambda: self.robot.states()[-1:] == [ExecutorStatus.STATE_IDLE])
         assert not self.robot.statuses[-1].queued
         self.utterances = 0
         del self.robot.statuses[:-1]

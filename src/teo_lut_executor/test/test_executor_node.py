@@ -67,7 +67,7 @@ class SharedGraph:
             parameters = {"lut_directory": str(lut), "capacity": 5, "journal": ""}
             overrides = (Parameter(name, value=value) for name, value in parameters.items())
             self._graph = self._running.enter_context(running(self._domain_id, *overrides))
-            self._graph.spin_until(lambda: self._graph.robot.states()[-1:] == [ExecutorStatus.STATE_IDLE])
+            self._graph.begin_anew()
         return self._graph
 
     def close(self) -> None:

@@ -167,7 +167,7 @@ def test_the_table_of_wrong_messages_and_these_tests_know_every_code():
         "position_between_points",
         "start_leaves_limits",
         *("stopping", "paused", "stopped", "fault", "inactive"),  # test_joint_follower
-        "bad_encoding",  # test_cdr
+        "bad_encoding",  # test_reading
         *("too_large", "too_many_waiting"),  # test_intake
         "bad_tolerance",  # test_goal_monitor
         "multi_dof",  # test_follow_action
