@@ -99,8 +99,9 @@ def graph(shared: SharedGraph) -> Graph:
 
 
 @pytest.fixture
-def own_graph(domain_id: int, tmp_path: Path) -> Iterator[Graph]:
+def own_graph(shared: SharedGraph, domain_id: int, tmp_path: Path) -> Iterator[Graph]:
     """A graph for a test that ends its executor."""
+    shared.close()  # two nodes of one name in a process would share their log
     save_table(tmp_path / "lut")
     parameters = {"lut_directory": str(tmp_path / "lut"), "journal": str(tmp_path / "journal")}
     with running(domain_id, *(Parameter(name, value=value) for name, value in parameters.items())) as graph:
