@@ -165,15 +165,6 @@ def test_an_end_that_is_not_reached_is_reported_and_the_next_sentence_starts_fro
     np.testing.assert_array_equal(world.sent[1].plan.positions[0], stopped)
 
 
-def test_a_sentence_that_waits_can_be_canceled(world: World) -> None:
-    first, second, third = (world.sign(text) for text in ("TÚ", "A", "N"))
-    world.run(1.0)
-    world.cancel(second)
-    assert world.finished() == [(second, Outcome.CANCELED)]
-    world.run_until(lambda: len(world.finished()) == 3)
-    assert world.finished()[1:] == [(first, Outcome.SUCCESS), (third, Outcome.SUCCESS)]
-
-
 def test_a_canceled_sentence_goes_back_to_rest_smoothly_and_the_next_begins(world: World) -> None:
     world.run(0.1)
     ticket, following = world.sign("A-N-A-N-A-N"), world.sign("TÚ")

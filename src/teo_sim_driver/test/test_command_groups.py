@@ -128,18 +128,6 @@ def test_a_limb_cancelled_in_a_pause_is_over_at_once(robot):
     assert robot.at(RIGHT) == robot.home[column(RIGHT)] - 0.5
 
 
-def test_until_a_scheduled_limb_starts_all_goes_on(robot):
-    robot.send("", RIGHT, -0.5)
-    robot.run(0.5)
-    robot.send("left_arm", LEFT, -0.5, stamp=robot.now + SECOND)
-    positions = robot.run(1.0)
-    assert (np.diff(positions[:, column(RIGHT)]) < 0.0).all()
-    assert np.abs(positions[:, column(LEFT)] - robot.home[column(LEFT)]).max() < 1e-12
-    robot.run(4.0)
-    assert robot.at(LEFT) == robot.home[column(LEFT)] - 0.5
-    assert robot.at(RIGHT) > robot.home[column(RIGHT)] - 0.5
-
-
 def test_random_commands_of_limbs_and_body_break_no_limit_and_never_step(robot, limits):
     rng = np.random.default_rng(5)
     home, taken = robot.home, 0
