@@ -30,7 +30,7 @@ _NOD = (math.radians(-5.0), math.radians(9.0))
 
 # Times the least time of a move from rest to rest [1]: unhurried first, then as the limits allow; the last is
 # for a joint that is on its way already where the gesture begins.
-EASES = (1.5, 1.1, 2.5)
+_EASES = (1.5, 1.1, 2.5)
 
 # Swings of a shake take so many times their least time [1]: a little more, for they are seldom too slow.
 _SWING_EASE = 1.02
@@ -105,7 +105,7 @@ class GestureWindow(NamedTuple):
 
 def hold_paths(position: float, window: GestureWindow) -> Iterator[NeckPath]:
     """Paths that keep a position [rad] over the whole gesture."""
-    for ease in EASES:
+    for ease in _EASES:
         time_in, time_out = window.time_in(position, ease), window.time_out(position, ease)
         arrival = max(window.first, window.begin + time_in)
         departure = min(window.last, window.end - time_out)
@@ -117,7 +117,7 @@ def hold_paths(position: float, window: GestureWindow) -> Iterator[NeckPath]:
 def nod_paths(strength: float, window: GestureWindow) -> Iterator[NeckPath]:
     """Paths that nod: lowest in the middle of the sign, or as near to it as the window allows."""
     positions = tuple(strength * angle for angle in _NOD)
-    for ease in EASES:
+    for ease in _EASES:
         for turns in (positions, positions[1:]):
             steps = [later - earlier for earlier, later in pairwise((0.0, *turns, 0.0))]
             takes = [ease * window.least_time(step) for step in steps]
@@ -136,7 +136,7 @@ def shake_paths(strength: float, window: GestureWindow) -> Iterator[NeckPath]:
     right = -strength * _SHAKE
     begins = math.copysign(right, -window.before) if window.comes_from_sign else right
     ends = math.copysign(right, -window.behind) if window.goes_on_into_sign else right
-    for ease in EASES:
+    for ease in _EASES:
         time_in = window.time_in(begins, min(ease, _JOIN_EASE) if window.comes_from_sign else ease)
         time_out = window.time_out(ends, min(ease, _JOIN_EASE) if window.goes_on_into_sign else ease)
         times = _turns(window, window.begin + time_in, window.end - time_out, swing)
@@ -278,7 +278,7 @@ class Leaning:
         begin, end = gap
         if levels[0] == levels[1]:
             return
-        for ease in EASES:
+        for ease in _EASES:
             takes = ease * self._least_time(angle)
             if not levels[0]:
                 yield NeckPath(max(begin, end - takes), (), end)

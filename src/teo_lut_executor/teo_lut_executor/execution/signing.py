@@ -65,7 +65,7 @@ def continue_opening(work: Work, answer: PlanAnswer) -> list[Effect]:
     if ahead < LEAST_AHEAD or not work.situation.may_continue:
         return plan_from_end(work)
     work.asked, current.plan = 0, answer.plan
-    return send_continuation(work, opening, answer.after, answer.plan)
+    return _send_continuation(work, opening, answer.after, answer.plan)
 
 
 def plan_from_end(work: Work, _: object = None) -> list[Effect]:
@@ -119,7 +119,7 @@ _SEND_AHEAD = 0.5
 _NEARLY_AT_REST = 0.3
 
 
-def send_continuation(work: Work, motion: SentMotion, seam: float, plan: Plan) -> list[Effect]:
+def _send_continuation(work: Work, motion: SentMotion, seam: float, plan: Plan) -> list[Effect]:
     """Send a plan that takes over from the motion in force at that motion's path time [s]."""
     situation, ahead = work.situation, seam - motion.elapsed
     samples = motion.continued(seam, plan)
@@ -146,7 +146,7 @@ def prepare_next(work: Work, _: object = None) -> list[Effect]:
     if join is None or join.plan is None or join.splice - motion.elapsed > _SEND_AHEAD:
         return wanted
     work.join, join.job.plan = None, join.plan
-    return send_continuation(work, motion, join.splice, join.plan)
+    return _send_continuation(work, motion, join.splice, join.plan)
 
 
 def keep_next_plan(work: Work, plan: Plan) -> list[Effect]:

@@ -68,7 +68,7 @@ class Word(NamedTuple):
 
 
 @functools.cache
-def default_grammar() -> HeadGrammar:
+def _default_grammar() -> HeadGrammar:
     """What the head says in the default language."""
     return load_language(DEFAULT_LANGUAGE).head
 
@@ -101,7 +101,7 @@ def printed_form(text: str, tokens: Sequence[Token], grammar: HeadGrammar | None
         tokens: Its tokens.
         grammar: Of the sentence's language; None for the default one.
     """
-    words = words_of(tokens, grammar or default_grammar())
+    words = words_of(tokens, grammar or _default_grammar())
     sentence_type = SentenceType.STATEMENT
     if "?" in text:
         asking = any(word.asks for word in words)
@@ -161,7 +161,7 @@ def head_gestures(
         form: Type and negation.
         grammar: Of the sentence's language; None for the default one.
     """
-    rules = grammar or default_grammar()
+    rules = grammar or _default_grammar()
     words = words_of(tokens, rules)
     signed = [word for word in words if tokens[word.first].kind != Kind.PAUSE]
     if not signed:

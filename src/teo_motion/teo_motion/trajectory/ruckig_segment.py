@@ -188,7 +188,7 @@ class RuckigSolver:
         The last may need all of the bounds.
         """
         for ease in _EASES:
-            within = bounds if ease is None else relaxed_bounds(begin, end, duration, bounds, ease=ease)
+            within = bounds if ease is None else _relaxed_bounds(begin, end, duration, bounds, ease=ease)
             segment = self.segment(begin, end, within, duration=duration)
             if segment is not None and segment.duration <= duration + FITS:
                 yield segment
@@ -238,7 +238,7 @@ def _pieces(trajectory: ruckig.Trajectory, start: State) -> Pieces:
     )
 
 
-def relaxed_bounds(begin: State, end: State, duration: float, bounds: Bounds, *, ease: float) -> Bounds:
+def _relaxed_bounds(begin: State, end: State, duration: float, bounds: Bounds, *, ease: float) -> Bounds:
     """Bounds a little above what a smooth segment in this time reaches.
 
     A segment with time to spare would otherwise jump to a low speed, keep it and stop as hard as the limits
