@@ -20,7 +20,7 @@ from glosses.systems import SENTENCES, lemmas_in_spanish_order, lines
 from report import Figure
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
-from teo_motion.torque import PeakTorque, peak_torques
+from teo_motion.sentence.plan import PeakTorque, peak_torques
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.morphology.readings import tag_class

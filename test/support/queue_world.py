@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Mapping
 import numpy as np
 
 from teo_description.humanoid import load_humanoid
-from teo_lut_executor.execution.events import (
+from teo_lut_executor.execution.interface import (
     Activity,
     DriverMode,
     DriverReport,

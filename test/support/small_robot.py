@@ -14,12 +14,14 @@ import numpy as np
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState
 from teo_sign_msgs.msg import ExecutorStatus, SignSentence, SignToken
 from trajectory_msgs.msg import JointTrajectory
 
 from teo_lut_executor.node.executor_node import ExecutorNode
+from teo_lut_executor.node.parameters import PARAMETERS
 from teo_names import COMMANDED_JOINTS, HOME
 from teo_signs.tokens import parse_printed
 
@@ -31,19 +33,23 @@ class SmallRobot(Node):
 
     def __init__(self, context: Context) -> None:
         super().__init__("small_robot", context=context)
-        self.positions = np.array([HOME[name] for name in COMMANDED_JOINTS])
         self.silent = False
         self.received: list[JointTrajectory] = []
         self.statuses: list[ExecutorStatus] = []
         self.path: list[tuple[float, np.ndarray]] = []  # time [s] and positions [rad] of every step
-        self._times = np.zeros(1)  # [s], of the clock
-        self._points = self.positions[None]
+        self.stand_at_home()
         self._states = self.create_publisher(JointState, "joint_states", 10)
         self.create_subscription(JointTrajectory, "joint_trajectory", self._on_trajectory, 10)
         latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self.create_subscription(ExecutorStatus, "executor_status", self.statuses.append, latched)
         self.tokens = self.create_publisher(SignSentence, "sign_tokens", 1000)
         self.create_timer(1.0 / RATE, self._step)
+
+    def stand_at_home(self) -> None:
+        """Be at home, at rest."""
+        self.positions = np.array([HOME[name] for name in COMMANDED_JOINTS])
+        self._times = np.zeros(1)  # [s], of the clock
+        self._points = self.positions[None]
 
     def _now(self) -> float:
         return float(self.get_clock().now().nanoseconds * 1e-9)
@@ -84,11 +90,31 @@ class Graph:
     directory: Path
     utterances: int = field(default=0)
 
+    def __post_init__(self) -> None:
+        self._started = {row.name: self.node.get_parameter(row.name) for row in PARAMETERS}
+
     def spin_until(self, condition: Callable[[], bool], timeout: float = 90.0) -> None:
         deadline = time.monotonic() + timeout
         while not condition():
             assert time.monotonic() < deadline, f"not within {timeout} s"
             self.executor.spin_once(timeout_sec=0.1)
+
+    def begin_anew(self) -> None:
+        """Wait until it rests with nothing queued; as it was started then, with what it said forgotten."""
+        self.robot.silent = False
+        self.node.set_parameters(
+            [parameter for parameter in self._started.values() if self._differs(parameter)]
+        )
+        self.spin_until(lambda: self.robot.states()[-1:] == [ExecutorStatus.STATE_IDLE])
+        assert not self.robot.statuses[-1].queued
+        self.robot.stand_at_home()
+        self.utterances = 0
+        del self.robot.statuses[:-1]
+        self.robot.received.clear()
+        self.robot.path.clear()
+
+    def _differs(self, parameter: Parameter) -> bool:
+        return bool(self.node.get_parameter(parameter.name).value != parameter.value)
 
     def rest(self, signed: int) -> None:
         """Spin until so many sentences have been signed, and nothing is left to do."""

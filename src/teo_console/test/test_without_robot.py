@@ -276,7 +276,7 @@ TELLING = (
     "teo_motion/teo_motion/**/*.py",
     "teo_lut_executor/teo_lut_executor/execution/**/*.py",
     "teo_lut_executor/teo_lut_executor/node/**/*.py",
-    "teo_lut_executor/teo_lut_executor/planning/**/*.py",
+    "teo_lut_executor/teo_lut_executor/*.py",
     "teo_sim_driver/teo_sim_driver/**/*.py",
     "teo_console/teo_console/**/*.py",
 )

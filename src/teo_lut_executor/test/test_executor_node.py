@@ -7,8 +7,8 @@ from __future__ import annotations
 import os
 import signal
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -17,7 +17,7 @@ import made_languages
 import numpy as np
 import pytest
 import rclpy
-from rcl_interfaces.msg import Parameter as ParameterMessage
+from made_signs import make_sign, small_table
 from rclpy.action import ActionClient
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
@@ -30,11 +30,11 @@ from teo_sign_msgs.msg import ExecutorStatus, SignSentence, SignToken
 from teo_sign_msgs.srv import GetSign, ListQueue, ListSigns
 
 from teo_description.humanoid import load_humanoid
-from teo_lut_executor.execution.events import Sentence
+from teo_lut_executor.execution.interface import Sentence
 from teo_lut_executor.execution.journal import Journal
 from teo_lut_executor.node.executor_node import ExecutorNode
 from teo_lut_executor.node.parameters import PARAMETERS
-from teo_names import COMMANDED_JOINTS, HEAD, joint_limits
+from teo_names import COMMANDED_JOINTS, joint_limits
 from teo_signs.sign import Sign
 from teo_signs.sign_file import save_sign
 from teo_signs.tokens import parse_printed
@@ -43,22 +43,67 @@ REST = load_humanoid().ready
 
 # Short signs near rest, so that a sentence takes about a second.
 QUICK = ("NOD", "TURN", "LOOK")
+NECK = ("AxialNeck", "FrontalNeck")
+
+
+class SharedGraph:
+    """One graph for many tests; it is handed on only at rest, with nothing queued, as it was configured."""
+
+    def __init__(self, domain_id: int, folder: Path) -> None:
+        self._domain_id, self._folder = domain_id, folder
+        self._running = ExitStack()
+        self._graph: Graph | None = None
+
+    def graph(self) -> Graph:
+        if self._graph is not None:
+            try:
+                self._graph.begin_anew()
+            except AssertionError:  # the test before has failed: that is its own matter
+                self.close()
+        if self._graph is None:
+            lut = self._folder / f"lut {len(list(self._folder.iterdir()))}"
+            save_table(lut)
+            parameters = {"lut_directory": str(lut), "capacity": 5, "journal": ""}
+            overrides = (Parameter(name, value=value) for name, value in parameters.items())
+            self._graph = self._running.enter_context(running(self._domain_id, *overrides))
+            self._graph.begin_anew()
+        return self._graph
+
+    def close(self) -> None:
+        self._running.close()
+        self._graph = None
+
+
+def save_table(directory: Path) -> None:
+    """The small table, and quick signs beside it."""
+    directory.mkdir(parents=True, exist_ok=True)
+    quick = (
+        make_sign(gloss, [[0.1 * n, 0.05], [0.1 * n - 0.05, 0.0]], [0.0, 0.2], joints=NECK)
+        for n, gloss in enumerate(QUICK)
+    )
+    for sign in (*small_table().values(), *quick):
+        save_sign(directory, sign)
+
+
+@pytest.fixture(scope="module")
+def shared(module_domain_id: int, tmp_path_factory: pytest.TempPathFactory) -> Iterator[SharedGraph]:
+    shared = SharedGraph(module_domain_id, tmp_path_factory.mktemp("graphs"))
+    yield shared
+    shared.close()
 
 
 @pytest.fixture
-def graph(
-    domain_id: int, table_directory: Path, make_sign: Callable[..., Any], tmp_path: Path
-) -> Iterator[Graph]:
-    joints = ("AxialNeck", "FrontalNeck")
-    for number, gloss in enumerate(QUICK):
-        knots = [[0.1 * number, 0.05], [0.1 * number - 0.05, 0.0]]
-        save_sign(table_directory, make_sign(gloss, knots, [0.0, 0.2], joints=joints))
-    with running(
-        domain_id,
-        Parameter("lut_directory", value=str(table_directory)),
-        Parameter("capacity", value=5),
-        Parameter("journal", value=str(tmp_path / "journal")),
-    ) as graph:
+def graph(shared: SharedGraph) -> Graph:
+    return shared.graph()
+
+
+@pytest.fixture
+def own_graph(shared: SharedGraph, domain_id: int, tmp_path: Path) -> Iterator[Graph]:
+    """A graph for a test that ends its executor."""
+    shared.close()  # two nodes of one name in a process would share their log
+    save_table(tmp_path / "lut")
+    parameters = {"lut_directory": str(tmp_path / "lut"), "journal": str(tmp_path / "journal")}
+    with running(domain_id, *(Parameter(name, value=value) for name, value in parameters.items())) as graph:
         yield graph
 
 
@@ -231,25 +276,8 @@ def test_a_canceled_goal_brings_the_robot_back_to_rest(graph: Graph) -> None:
     client.destroy()
 
 
-@pytest.mark.slow
-def test_type_and_negation_are_shown_with_the_head_unless_it_is_to_be_still(graph: Graph) -> None:
-    def most(head_motion: float) -> list[float]:
-        """The most that yaw and pitch are away from rest in a negated question [rad]."""
-        graph.node.set_parameters([Parameter("head_motion", value=head_motion)])
-        message = graph.sentence("A")
-        message.type, message.negated = SignSentence.TYPE_YES_NO_QUESTION, True
-        before = graph.robot.states().count(ExecutorStatus.STATE_SIGNING)
-        graph.publish(message)
-        graph.rest(signed=before + 1)
-        points = np.array([point.positions for point in graph.robot.received[-1].points])
-        return np.abs(points[:, : len(HEAD)]).max(axis=0).tolist()
-
-    assert most(0.0) == [0.0, 0.0]
-    assert most(1.0) == pytest.approx(np.radians([12.0, 9.0]), abs=0.01)
-
-
 def test_signs_are_listed_and_shown_as_soon_as_they_are_saved(
-    graph: Graph, make_sign: Callable[..., Any]
+    graph: Graph,
 ) -> None:
     list_signs = graph.robot.create_client(ListSigns, "list_signs")
     get_sign = graph.robot.create_client(GetSign, "get_sign")
@@ -271,6 +299,8 @@ def test_signs_are_listed_and_shown_as_soon_as_they_are_saved(
     broken = graph.wait(get_sign.call_async(GetSign.Request(gloss="ROTO")))
     assert (broken.success, broken.code) == (False, "invalid_sign")
     assert "ROTO" not in graph.wait(list_signs.call_async(ListSigns.Request())).glosses
+    for gloss in ("NUEVO", "ROTO"):
+        (graph.directory / f"{gloss}.json").unlink()
 
 
 def test_parameters_are_checked_and_take_effect_with_the_next_sentence(graph: Graph) -> None:
@@ -287,15 +317,6 @@ def test_parameters_are_checked_and_take_effect_with_the_next_sentence(graph: Gr
     graph.rest(signed=1)
     accelerations = np.concatenate([[p.accelerations for p in sent.points] for sent in graph.robot.received])
     assert 0.5 < np.abs(accelerations).max() <= 2.0
-
-
-def test_every_parameter_is_described(graph: Graph) -> None:
-    for row in PARAMETERS:
-        described = graph.node.describe_parameter(row.name)
-        assert described.description.endswith((".", "]."))
-        ranged = bool(described.floating_point_range) or bool(described.integer_range)
-        assert ranged or isinstance(row.default, str | bool)
-    assert isinstance(graph.node.get_parameter("acceleration").to_parameter_msg(), ParameterMessage)
 
 
 @pytest.mark.parametrize(
@@ -316,7 +337,7 @@ def test_a_node_with_impossible_parameters_is_not_configured(
 
 
 def test_what_a_killed_executor_left_is_signed_or_named(
-    graph: Graph, domain_id: int, table_directory: Path, tmp_path: Path
+    own_graph: Graph, domain_id: int, tmp_path: Path
 ) -> None:
     def left(text: str, seconds_ago: float, attempts: int) -> None:
         sentence = Sentence(tokens=parse_printed(text), utterance_id=text)
@@ -330,18 +351,18 @@ def test_what_a_killed_executor_left_is_signed_or_named(
     journal.begin()
     journal.close()
     overrides = [
-        Parameter("lut_directory", value=str(table_directory)),
+        Parameter("lut_directory", value=str(own_graph.directory)),
         Parameter("journal", value=str(folder)),
     ]
-    second = ExecutorNode(context=graph.node.context, parameter_overrides=overrides)
-    graph.node.destroy_node()
-    graph.robot.statuses.clear()
-    graph.executor.add_node(second)
+    second = ExecutorNode(context=own_graph.node.context, parameter_overrides=overrides)
+    own_graph.node.destroy_node()
+    own_graph.robot.statuses.clear()
+    own_graph.executor.add_node(second)
     try:
         assert second.start()
-        graph.rest(signed=1)
-        assert graph.refused() == [("interrupted", "TURN"), ("expired", "A-N-A")]
-        signed = [s.utterance_id for s in graph.robot.statuses if s.state == ExecutorStatus.STATE_SIGNING]
+        own_graph.rest(signed=1)
+        assert own_graph.refused() == [("interrupted", "TURN"), ("expired", "A-N-A")]
+        signed = [s.utterance_id for s in own_graph.robot.statuses if s.state == ExecutorStatus.STATE_SIGNING]
         assert set(signed) == {"NOD"}
     finally:
         second.destroy_node()
@@ -349,49 +370,51 @@ def test_what_a_killed_executor_left_is_signed_or_named(
 
 
 def test_what_is_said_while_no_executor_is_there_is_signed_once_by_the_next_or_named(
-    graph: Graph, table_directory: Path, tmp_path: Path
+    own_graph: Graph, tmp_path: Path
 ) -> None:
     kept = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)  # as the translator's
-    graph.robot.tokens = graph.robot.create_publisher(SignSentence, "sign_tokens", kept)
-    graph.publish(graph.sentence("NOD"))
-    graph.publish(graph.sentence("Ω"))
-    graph.rest(signed=1)
+    own_graph.robot.tokens = own_graph.robot.create_publisher(SignSentence, "sign_tokens", kept)
+    own_graph.publish(own_graph.sentence("NOD"))
+    own_graph.publish(own_graph.sentence("Ω"))
+    own_graph.rest(signed=1)
 
     def begin(journal_age: float) -> ExecutorNode:
-        graph.robot.statuses.clear()
+        own_graph.robot.statuses.clear()
         overrides = [
-            Parameter("lut_directory", value=str(table_directory)),
+            Parameter("lut_directory", value=str(own_graph.directory)),
             Parameter("journal", value=str(tmp_path / "journal")),
             Parameter("journal_age", value=journal_age),
         ]
-        node = ExecutorNode(context=graph.node.context, parameter_overrides=overrides)
-        graph.executor.add_node(node)
+        node = ExecutorNode(context=own_graph.node.context, parameter_overrides=overrides)
+        own_graph.executor.add_node(node)
         assert node.start()
         return node
 
-    graph.node.destroy_node()
-    graph.robot.tokens.publish(graph.sentence("TURN"))
+    own_graph.node.destroy_node()
+    own_graph.robot.tokens.publish(own_graph.sentence("TURN"))
     second = begin(60.0)
     try:
-        graph.rest(signed=1)
-        told = {(status.utterance_id, status.code) for status in graph.robot.statuses if status.utterance_id}
+        own_graph.rest(signed=1)
+        told = {
+            (status.utterance_id, status.code) for status in own_graph.robot.statuses if status.utterance_id
+        }
         assert told == {("text 3", "")}
     finally:
         second.destroy_node()
-    graph.robot.tokens.publish(graph.sentence("LOOK"))
+    own_graph.robot.tokens.publish(own_graph.sentence("LOOK"))
     third = begin(0.0)
     try:
-        graph.spin_until(lambda: bool(graph.refused()))
-        graph.spin_until(lambda: graph.robot.states()[-1] == ExecutorStatus.STATE_IDLE)
-        assert graph.refused() == [("expired", "text 4")]
-        assert ExecutorStatus.STATE_SIGNING not in graph.robot.states()
+        own_graph.spin_until(lambda: bool(own_graph.refused()))
+        own_graph.spin_until(lambda: own_graph.robot.states()[-1] == ExecutorStatus.STATE_IDLE)
+        assert own_graph.refused() == [("expired", "text 4")]
+        assert ExecutorStatus.STATE_SIGNING not in own_graph.robot.states()
     finally:
         third.destroy_node()
 
 
 @pytest.mark.slow
 def test_each_sentence_is_signed_in_its_own_language_or_refused_while_languages_change(
-    domain_id: int, data_home: Path, make_sign: Callable[..., Any]
+    domain_id: int, data_home: Path
 ) -> None:
     def nod(language: str, turn: float) -> Sign:
         sign = make_sign("NOD", [[0.0, 0.0], [turn, 0.0]], [0.0, 0.4], joints=("AxialNeck", "FrontalNeck"))
@@ -425,3 +448,10 @@ def test_each_sentence_is_signed_in_its_own_language_or_refused_while_languages_
         assert left[-1] < right[0], "and then one to the right"
         (result,) = graph.node.set_parameters([Parameter("language", value="qqq")])
         assert result.reason.startswith("[unknown_language]")
+
+
+def test_every_number_among_the_parameters_has_a_range() -> None:
+    for row in PARAMETERS:
+        assert row.description.endswith(".")
+        numbers = row.low is not None and row.high is not None and row.low <= row.default <= row.high
+        assert isinstance(row.default, bool | str) or numbers, row.name

@@ -9,7 +9,7 @@ import pytest
 
 from queue_world import World
 from teo_description.humanoid import load_humanoid
-from teo_lut_executor.execution.events import (
+from teo_lut_executor.execution.interface import (
     Activity,
     Begun,
     Outcome,
@@ -26,11 +26,6 @@ REST = load_humanoid().ready
 @pytest.fixture
 def world(table: Mapping[str, Sign]) -> World:
     return World(table)
-
-
-def test_it_begins_idle(world: World) -> None:
-    world.run(1.0)
-    assert world.activities() == [Activity.IDLE]
 
 
 def test_a_sentence_is_signed_and_then_all_is_idle(world: World) -> None:
@@ -54,15 +49,6 @@ def test_sentences_are_signed_in_the_order_in_which_they_came(world: World) -> N
     assert [status.queued for status in signing] == [3, 2, 1, 0]
     assert [event.ticket for event in world.events if isinstance(event, Begun)] == tickets
     assert world.activities()[-1] == Activity.IDLE
-
-
-def test_a_refused_sentence_does_not_hold_up_the_next(world: World) -> None:
-    bad, good = world.sign("Ω"), world.sign("TÚ")
-    world.run_until(lambda: len(world.finished()) == 2)
-    assert world.finished() == [(bad, Outcome.REFUSED), (good, Outcome.SUCCESS)]
-    refused = next(status for status in world.statuses() if status.activity == Activity.REFUSED)
-    assert refused.code == "unknown_sign" and "Ω" in refused.message
-    assert refused.sentence is not None and refused.sentence.tokens[0].gloss == "Ω"
 
 
 def test_too_many_sentences_are_refused_with_the_reason(table: Mapping[str, Sign]) -> None:
@@ -93,35 +79,6 @@ def test_it_waits_for_joint_states_and_for_a_driver_and_says_so_once(world: Worl
     world.obstacle = ""
     world.run_until(lambda: bool(world.finished()))
     assert world.activities()[-2:] == [Activity.SIGNING, Activity.IDLE]
-
-
-def test_a_sentence_waits_while_the_driver_is_silent_and_the_silence_is_told(world: World) -> None:
-    world.run(0.1)
-    world.publishes_states = False
-    world.run(1.0)
-    ticket = world.sign("TÚ")
-    world.run(1.0)
-    assert world.finished() == [] and world.sent == []
-    assert (world.statuses()[-1].activity, world.statuses()[-1].code) == (
-        Activity.FAULT,
-        "stale_joint_states",
-    )
-    world.publishes_states = True
-    world.run_until(lambda: bool(world.finished()))
-    assert world.finished() == [(ticket, Outcome.SUCCESS)]
-
-
-def test_planning_that_takes_long_costs_no_sentence(world: World) -> None:
-    world.run(0.1)
-    world.planning_time = 2.0
-    tickets = [world.sign(text) for text in ("TÚ", "A", "N")]
-    world.run_until(lambda: len(world.finished()) == 3)
-    assert world.finished() == [(ticket, Outcome.SUCCESS) for ticket in tickets]
-    assert {status.activity for status in world.statuses()} <= {
-        Activity.IDLE,
-        Activity.WAITING,
-        Activity.SIGNING,
-    }
 
 
 def test_a_process_that_was_held_up_does_not_take_the_joint_states_for_stale(world: World) -> None:
@@ -208,15 +165,6 @@ def test_an_end_that_is_not_reached_is_reported_and_the_next_sentence_starts_fro
     np.testing.assert_array_equal(world.sent[1].plan.positions[0], stopped)
 
 
-def test_a_sentence_that_waits_can_be_canceled(world: World) -> None:
-    first, second, third = (world.sign(text) for text in ("TÚ", "A", "N"))
-    world.run(1.0)
-    world.cancel(second)
-    assert world.finished() == [(second, Outcome.CANCELED)]
-    world.run_until(lambda: len(world.finished()) == 3)
-    assert world.finished()[1:] == [(first, Outcome.SUCCESS), (third, Outcome.SUCCESS)]
-
-
 def test_a_canceled_sentence_goes_back_to_rest_smoothly_and_the_next_begins(world: World) -> None:
     world.run(0.1)
     ticket, following = world.sign("A-N-A-N-A-N"), world.sign("TÚ")
@@ -259,14 +207,6 @@ def test_a_stop_that_the_driver_does_not_take_is_sent_again(world: World) -> Non
     world.run_until(lambda: bool(world.finished()))
     assert world.finished() == [(ticket, Outcome.CANCELED)]
     np.testing.assert_allclose(world.positions, REST, atol=0.02)
-
-
-def test_an_unknown_ticket_cancels_nothing(world: World) -> None:
-    world.sign("TÚ")
-    world.run(1.0)
-    world.cancel(99)
-    world.run_until(lambda: bool(world.finished()))
-    assert world.finished()[0][1] == Outcome.SUCCESS
 
 
 def test_progress_names_the_token_that_is_signed(world: World) -> None:

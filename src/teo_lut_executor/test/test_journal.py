@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from teo_lut_executor.execution.events import Sentence
+from teo_lut_executor.execution.interface import Sentence
 from teo_lut_executor.execution.journal import Journal, Kept, MessageKey
 from teo_motion.sentence.sentence_form import SentenceForm, SentenceType
 from teo_signs.tokens import parse_printed

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from teo_description.robot import Robot
-from teo_lut_executor.node.parameters import PARAMETERS, left_handed_from
+from teo_lut_executor.node.parameters import PARAMETERS, planner_settings_from
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
 from teo_names import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM, joint_limits
@@ -131,9 +131,9 @@ def test_a_sign_that_has_changed_is_mirrored_anew(robot: Robot, lut: Lut) -> Non
 
 
 def test_the_dominant_hand_is_right_left_or_refused() -> None:
-    assert {row.name: row.default for row in PARAMETERS}["dominant_hand"] == "right"
-    assert not left_handed_from({"dominant_hand": "right"})
-    assert left_handed_from({"dominant_hand": "left"})
-    with pytest.raises(PlanError, match="expected right or left, got 'both'") as refusal:
-        left_handed_from({"dominant_hand": "both"})
+    values = {row.name: row.default for row in PARAMETERS}
+    assert not planner_settings_from(values).left_handed
+    assert planner_settings_from(values | {"dominant_hand": "left"}).left_handed
+    with pytest.raises(PlanError, match="expected one of right, left, got 'both'") as refusal:
+        planner_settings_from(values | {"dominant_hand": "both"})
     assert refusal.value.code == "bad_hand"

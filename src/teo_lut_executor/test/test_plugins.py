@@ -52,9 +52,3 @@ def test_lut_with_a_capture_package_whose_libraries_are_missing_says_which():
     assert refused.returncode == 1
     assert "not_installed: lut import: expected what teo_sign_capture needs" in refused.stderr
     assert "No module named 'teo_sign_capture" in refused.stderr
-
-
-def test_lut_reads_the_table_without_the_capture_package():
-    shown = lut("show", "HOLA", missing=("teo_sign_capture",), uninstalled=("teo_sign_capture",))
-    assert shown.returncode == 0, shown.stderr
-    assert "HOLA" in shown.stdout

@@ -13,16 +13,18 @@ from teo_lut_executor.execution.situation import BLOCKED
 SOURCES = Path(__file__).parents[2]
 # What executor and planner are made of; the commands of `lut` have codes of their own.
 ROOMS = (
-    *(f"teo_lut_executor/teo_lut_executor/{room}" for room in ("execution", "node", "planning")),
-    "teo_motion/teo_motion",
-    "teo_signs/teo_signs",
+    "teo_lut_executor/teo_lut_executor/*.py",
+    "teo_lut_executor/teo_lut_executor/execution/*.py",
+    "teo_lut_executor/teo_lut_executor/node/*.py",
+    "teo_motion/teo_motion/**/*.py",
+    "teo_signs/teo_signs/**/*.py",
 )
 
 
 def said() -> set[str]:
     """Every code that a `PlanError` is made with, or that is given as `code`."""
     codes = {code for code, _ in BLOCKED.values()}
-    for path in (path for room in ROOMS for path in (SOURCES / room).rglob("*.py")):
+    for path in (path for room in ROOMS for path in SOURCES.glob(room)):
         for call in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if not isinstance(call, ast.Call):
                 continue

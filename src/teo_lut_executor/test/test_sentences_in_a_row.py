@@ -11,7 +11,7 @@ import pytest
 
 from queue_world import TICK, World
 from teo_description.humanoid import load_humanoid
-from teo_lut_executor.execution.events import (
+from teo_lut_executor.execution.interface import (
     Activity,
     DriverMode,
     Outcome,
@@ -164,17 +164,6 @@ def test_a_latched_stop_ends_the_sentence_and_keeps_the_queue_until_it_is_rearme
     np.testing.assert_allclose(world.positions, REST, atol=1e-3)
 
 
-def test_a_robot_that_was_stopped_goes_to_rest_when_it_is_rearmed(world: World) -> None:
-    world.sign("A-N-A")
-    world.run(3.0)
-    world._motions, world.velocities = [], np.zeros(REST.size)
-    world.driver_says(DriverMode.STOPPED)
-    world.run(1.0)
-    world.driver_says(DriverMode.HOLDING)
-    world.run_until(lambda: world.activities()[-1] == Activity.IDLE)
-    np.testing.assert_allclose(world.positions, REST, atol=0.02)
-
-
 def test_a_pause_halts_progress_and_costs_nothing(world: World) -> None:
     ticket = world.sign("A-N-A")
     world.run(3.0)
@@ -207,19 +196,6 @@ def test_a_newer_text_replaces_the_one_before_without_going_to_rest(table: Mappi
     assert replaced == [1, 0]
     assert world.now < 100.2 + world.sent[0].plan.duration
     assert_smooth(world)
-
-
-def test_sentences_that_wait_are_listed_and_cleared(world: World) -> None:
-    first = world.sign("A-N", utterance_id="one")
-    world.run(0.5)
-    others = [world.sign(text, utterance_id=text) for text in ("N", "A")]
-    listed, current = world.queue.sentences()
-    assert [sentence.utterance_id for sentence in listed] == ["one", "N", "A"] and current == 0
-    world.take(world.queue.clear(world.now))
-    assert world.finished() == [(ticket, Outcome.CANCELED) for ticket in others]
-    assert world.queue.sentences()[0] == listed[:1]
-    world.run_until(lambda: len(world.finished()) == 3)
-    assert world.finished()[2] == (first, Outcome.SUCCESS)
 
 
 def test_a_joined_sentence_that_is_canceled_goes_to_rest_instead(world: World) -> None:
@@ -276,7 +252,7 @@ def test_a_queue_that_is_deactivated_stops_the_robot_and_names_the_sentence(worl
     assert world.finished()[1] == (second, Outcome.SUCCESS)
 
 
-@pytest.mark.parametrize("pace", [0.1, 0.3, 0.5, 0.9])
+@pytest.mark.parametrize("pace", [0.1, 0.5, 0.9])
 def test_at_any_speed_sentences_begin_at_once_and_go_on_from_where_the_robot_is(
     world: World, pace: float
 ) -> None:
@@ -297,7 +273,7 @@ def test_at_any_speed_sentences_begin_at_once_and_go_on_from_where_the_robot_is(
         assert np.abs(sent.plan.positions[0] - REST).max() > 0.1, "from rest again"
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", range(5))
 def test_a_speed_that_is_changed_whenever_costs_no_sentence(world: World, seed: int) -> None:
     draw = np.random.default_rng(seed)
     world.run(0.2)
@@ -314,7 +290,7 @@ def test_a_speed_that_is_changed_whenever_costs_no_sentence(world: World, seed: 
     assert all(status.code == "" for status in world.statuses())
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", range(5))
 def test_a_robot_that_is_not_heard_for_a_while_but_goes_on_is_stopped_before_it_signs_again(
     world: World, seed: int
 ) -> None:
@@ -385,7 +361,7 @@ def test_a_sentence_that_is_canceled_while_its_motion_is_on_its_way_does_not_beg
 
 
 # While it is stopped, stands, is planned for again, and signs again.
-@pytest.mark.parametrize("wait", [0.02, 0.2, 0.4, 0.6, 0.8, 1.0, 1.3, 2.0])
+@pytest.mark.parametrize("wait", [0.02, 0.4, 0.8, 2.0])
 def test_a_stop_ends_an_interrupted_sentence_that_is_to_be_signed_again(world: World, wait: float) -> None:
     world.planning_time = 0.5
     world.run(0.2)

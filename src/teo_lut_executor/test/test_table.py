@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from made_signs import small_table
 
 from queue_world import World
-from teo_lut_executor.execution.events import (
+from teo_lut_executor.execution.interface import (
     Begun,
     DriverMode,
     Effect,
@@ -24,8 +24,8 @@ from teo_lut_executor.execution.events import (
     StopReady,
     TrajectoryReady,
 )
-from teo_lut_executor.execution.states import Event, State
-from teo_lut_executor.execution.table import TABLE, printed
+from teo_lut_executor.execution.table import TABLE, Event, printed
+from teo_lut_executor.execution.work import State
 
 README = Path(__file__).parents[1] / "README.md"
 STANDS_STILL = (DriverMode.STOPPED, DriverMode.PAUSED, DriverMode.INACTIVE, DriverMode.FAULT)

@@ -11,33 +11,34 @@ around the robot's body, `HeadOverlay` lays the head's gestures over it. What tr
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from teo_common.arrays import Array
 from teo_description.hand_geometry import hand_table
 from teo_description.robot import Robot
 from teo_motion.collision.collision_avoidance import CollisionAvoidance
 from teo_motion.collision.motion_clearance import RESOLUTION, MotionClearance
 from teo_motion.collision.opening import opening
-from teo_motion.head.overlay import HeadOverlay
+from teo_motion.head_overlay import HeadOverlay
 from teo_motion.sentence.composition import compose
-from teo_motion.sentence.head_gestures import head_gestures
-from teo_motion.sentence.plan import Plan
+from teo_motion.sentence.plan import Plan, sample_at
 from teo_motion.sentence.posture_choice import choose_postures
-from teo_motion.sentence.rest_posture import DEFAULT_REST, RestPosture
-from teo_motion.sentence.rhythm import SigningStyle
-from teo_motion.sentence.sentence_form import STATEMENT, SentenceForm, check_form
+from teo_motion.sentence.sentence_form import STATEMENT, SentenceForm, check_form, head_gestures
 from teo_motion.sentence.sign_size import SignSize
+from teo_motion.sentence.signing_style import DEFAULT_REST, RestPosture, SigningStyle
 from teo_motion.sentence.timing import SentenceTiming
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import State
 from teo_sign_languages import Language
-from teo_signs.errors import PlanError
+from teo_signs.errors import LutError, PlanError
+from teo_signs.export.sign_motion import SignMotion
 from teo_signs.lexicon import DEFAULT_STANDING, Lexicon, SignedToken
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Standing
-from teo_signs.tokens import Token
+from teo_signs.tokens import Kind, Token
 
 # Time between two samples of a plan [s]: TEO's drives take a set-point with every CAN SYNC, 0.02 s
 # apart, and more points would not reach them.
@@ -48,8 +49,8 @@ DEFAULT_PERIOD = 0.02
 DEFAULT_MAX_DURATION = 300.0
 
 # Parts of the robot keep this far apart [m]: what is found to within so much overlaps nowhere. Signs touch,
-# but the shapes of the collision model are larger than the parts: no entry of the table comes nearer than 6
-# mm.
+# but the shapes of the collision model are larger than the parts: no entry of the table comes nearer than
+# 6 mm.
 DEFAULT_CLEARANCE = RESOLUTION
 
 # A start this far outside the limits is taken to be on the limit [rad]: encoders of 0.0015 rad and a control
@@ -59,6 +60,13 @@ START_TOLERANCE = 0.01
 # Shares of the time asked for that are tried for the opening of a sentence [1]: where the way to the first
 # sign leads past the body, its first part is free.
 _OPENING_SHARES = (1.0, 0.5)
+
+# Between two rows of a lone sign [s]: drives take no more than 50 set-points a second, and straight lines
+# over more than 0.1 s cut the corners of a sign by more than 2 deg.
+_PERIOD_RANGE = (0.001, 0.1)
+
+# Greatest motion of a joint that counts as standing still [rad]: the last digit of an entry.
+_STILL = 1e-6
 
 
 class Planner:
@@ -277,11 +285,47 @@ class Planner:
         )
 
 
-def plan(
-    tokens: Sequence[Token],
-    signs: Mapping[str, Sign],
-    limits: MotionLimits | None = None,
-    start: State | None = None,
-) -> Plan:
-    """Plan one sentence with the defaults, self-collision included; see `Planner` for more than one."""
-    return Planner(signs, limits=limits, robot=Robot.load()).plan(tokens, start)
+def sign_motion(planner: Planner, sign: Sign, *, period: float = DEFAULT_PERIOD) -> SignMotion:
+    """Plan one sign as a robot plays it alone: from rest over the sign, slowed down where need be, to rest.
+
+    Args:
+        planner: It must sign entries of any standing, or a word is spelled instead.
+        sign: An entry of the planner's table.
+        period: Time between two rows [s].
+
+    Raises:
+        LutError: The period is outside `_PERIOD_RANGE` ("bad_period").
+        PlanError: The sign cannot be planned.
+    """
+    least, most = _PERIOD_RANGE
+    if not least <= period <= most:
+        raise LutError("bad_period", f"period: expected {least:g} to {most:g} s, got {period}")
+    plan = planner.plan([Token(gloss=sign.gloss, kind=Kind[sign.kind.upper()])])
+    if len(plan.timings) != 1 or plan.timings[0].token.gloss != sign.gloss:
+        raise LutError(
+            "not_signed", f"{sign.gloss}: expected a planner that signs every standing, got the word spelled"
+        )
+    moving = {
+        name
+        for name, column in zip(plan.names, np.ptp(plan.positions, axis=0).tolist(), strict=True)
+        if column > _STILL
+    }
+    humanoid = planner.limits.humanoid
+    limbs = {limb: joints for limb, joints in humanoid.limbs.items() if not moving.isdisjoint(joints)}
+    columns = humanoid.columns(joint for joints in limbs.values() for joint in joints)
+    rows = math.ceil(plan.duration / period - 1e-9) + 1
+    times: Array = np.arange(rows, dtype=np.float64) * period
+    positions = sample_at(plan.motions, times).positions[:, columns].copy()
+    positions[-1] = plan.positions[-1, columns]
+    for array in (times, positions):
+        array.setflags(write=False)
+    timing = plan.timings[0]
+    return SignMotion(
+        sign=sign,
+        limbs=limbs,
+        times=times,
+        positions=positions,
+        start=timing.start,
+        duration=timing.duration,
+        stretch=timing.stretch,
+    )

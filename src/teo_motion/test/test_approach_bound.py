@@ -95,17 +95,6 @@ def test_no_point_goes_farther_than_parts_are_said_to_approach(
     assert closest > 0.3  # else looks along a motion are wasted
 
 
-def test_the_distance_of_one_posture_bounds_that_of_the_next(robot: Robot, bound: ApproachBound) -> None:
-    limits = robot.humanoid.limits()
-    rng = np.random.default_rng(12)
-    for _ in range(60):
-        first = rng.uniform(limits.lower, limits.upper)
-        second = np.clip(first + rng.uniform(-0.1, 0.1, len(first)), limits.lower, limits.upper)
-        poses = [dict(zip(limits.names, row.tolist(), strict=True)) for row in (first, second)]
-        near = [robot.clearance(robot.configuration(pose)).distance for pose in poses]
-        assert abs(near[1] - near[0]) <= bound.approaches(np.array([first, second]))[0]
-
-
 def test_what_stands_still_approaches_nothing(robot: Robot, bound: ApproachBound) -> None:
     rest = robot.humanoid.ready
     assert bound.approaches(np.array([rest, rest, rest])).tolist() == [0.0, 0.0]

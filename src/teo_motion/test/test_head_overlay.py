@@ -14,10 +14,9 @@ from hypothesis import strategies as st
 from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
-from teo_motion.sentence.head_gestures import GestureKind
 from teo_motion.sentence.plan import Plan, TokenTiming
-from teo_motion.sentence.rhythm import SigningStyle
-from teo_motion.sentence.sentence_form import STATEMENT, SentenceForm, SentenceType
+from teo_motion.sentence.sentence_form import STATEMENT, GestureKind, SentenceForm, SentenceType
+from teo_motion.sentence.signing_style import SigningStyle
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import State
 from teo_motion.trajectory.stopping import stop

@@ -12,10 +12,9 @@ from hypothesis import strategies as st
 from teo_description.humanoid import load_humanoid
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
-from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import Bounds, RuckigSolver, State
-from teo_names import COMMANDED_JOINTS, LEFT_ARM, LEFT_HAND, RIGHT_ARM
+from teo_names import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM
 from teo_signs.sign import Sign
 from teo_signs.tokens import parse_printed
 
@@ -37,12 +36,6 @@ def test_an_arm_that_is_needed_again_at_once_waits_where_it_is(table: Mapping[st
     waiting = during(plan, 1, LEFT_ARM)
     np.testing.assert_allclose(waiting, np.tile(waiting[0], (len(waiting), 1)), atol=5e-4)
     assert np.abs(waiting[0] - REST[columns(LEFT_ARM)]).max() > 0.5
-
-
-def test_its_hand_goes_to_rest_meanwhile(table: Mapping[str, Sign]) -> None:
-    plan = Planner(table).plan(parse_printed("CASA TÚ TÚ CASA"))
-    away = np.abs(np.vstack([during(plan, token, LEFT_HAND) for token in (1, 2)]) - REST[columns(LEFT_HAND)])
-    assert away.max(axis=1).min() < 5e-4
 
 
 def test_an_arm_at_rest_sets_out_while_the_other_still_signs(table: Mapping[str, Sign]) -> None:
@@ -72,12 +65,6 @@ def test_an_arm_on_its_way_to_rest_does_not_hold_up_the_other(table: Mapping[str
     for token in (2, 3):
         gaps = [plan.timings[token].start - plan.timings[token - 1].start for plan in (alone, after)]
         assert gaps[1] == pytest.approx(gaps[0], abs=1e-6)
-
-
-def test_how_long_an_arm_must_rest_can_be_chosen(table: Mapping[str, Sign]) -> None:
-    plan = Planner(table, style=SigningStyle(arm_rest=30.0)).plan(parse_printed("CASA A-N-A-L CASA"))
-    waiting = during(plan, 4, LEFT_ARM)
-    assert np.abs(waiting - REST[columns(LEFT_ARM)]).max() > 0.5
 
 
 def test_no_arm_goes_down_between_the_letters_of_a_word(table: Mapping[str, Sign]) -> None:

@@ -8,15 +8,17 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from teo_motion.head.neck_paths import GestureWindow, hold_paths, nod_paths, shake_paths
+from teo_motion.neck_paths import GestureWindow, Leaning, hold_paths, nod_paths, shake_paths
 from teo_motion.trajectory.joint_motion import JointMotion, JointMotionBuilder
 from teo_motion.trajectory.limits import MotionLimits
+from teo_motion.trajectory.splice import Splicer
 
 LIMITS = MotionLimits.of_robot()
+PITCH = LIMITS.names.index("FrontalNeck")
 
 
 def least_time(way: float) -> float:
-    return float(LIMITS.least_times(np.array([way]), [0])[0])
+    return float(LIMITS.least_times(np.array([way]), [PITCH])[0])
 
 
 def standing(*positions: float) -> JointMotion:
@@ -59,11 +61,6 @@ def test_a_shake_goes_from_side_to_side_from_begin_to_end() -> None:
         assert least_time(math.radians(24.0)) <= later.time - earlier.time < 0.75
 
 
-def test_a_short_sign_is_shaken_at_beyond_its_ends() -> None:
-    path = next(shake_paths(1.0, window(0.0, 5.0, 5.3, 20.0)))
-    assert len(path.points) == 3
-
-
 def test_a_shake_without_room_for_both_sides_is_none() -> None:
     assert list(shake_paths(1.0, window(5.0, 5.2, 5.5, 6.5))) == []
 
@@ -98,12 +95,6 @@ def test_a_shake_between_two_signs_that_shake_alternates(before: float, behind: 
         assert (path.begin, path.end) == pytest.approx((5.0, 5.0 + length))
 
 
-def test_less_strength_shakes_less_far_but_no_faster() -> None:
-    full, half = (next(shake_paths(strength, window(0.0, 5.0, 9.0, 20.0))) for strength in (1.0, 0.5))
-    assert half.points[0].position == pytest.approx(full.points[0].position / 2.0)
-    assert [point.time for point in half.points] == pytest.approx([point.time for point in full.points])
-
-
 def test_a_position_is_kept_as_long_as_there_is_room() -> None:
     path = next(hold_paths(0.15, window(0.0, 5.0, 9.0, 20.0)))
     assert [(point.time, point.position) for point in path.points] == [(5.0, 0.15), (9.0, 0.15)]
@@ -123,3 +114,51 @@ def test_a_nod_with_little_room_is_a_bow() -> None:
     paths = list(nod_paths(1.0, window(5.0, 5.0, 6.0, 6.0)))
     assert paths and all(len(path.points) == 1 for path in paths)
     assert all(path.begin >= 5.0 and path.end <= 6.0 for path in paths)
+
+
+FORWARD = math.radians(9.0)
+
+
+@pytest.fixture
+def leaning() -> Leaning:
+    return Leaning(Splicer(LIMITS.bounds.of([PITCH])), least_time)
+
+
+@pytest.fixture
+def motion() -> JointMotion:
+    """A head that stands still for 20 s."""
+    builder = JointMotionBuilder()
+    builder.hold(0.0, 0.0)
+    return builder.build(20.0)
+
+
+def degrees(motion: JointMotion, *times: float) -> list[float]:
+    return np.degrees(motion.at(np.array(times))[0]).tolist()
+
+
+def test_signs_are_turned_by_what_they_allow(leaning: Leaning, motion: JointMotion) -> None:
+    kept, shifts = [(5.0, 6.0), (8.0, 9.0)], [math.radians(4.0), math.radians(1.0)]
+    lean = leaning.leaned(motion, FORWARD, (4.0, 12.0), kept, shifts)
+    assert lean is not None
+    expected = [4.0, 4.0, 9.0, 1.0, 9.0, 9.0]
+    assert degrees(lean.motion, 5.5, 6.0, 7.0, 8.5, 10.5, 12.0) == pytest.approx(expected, abs=1e-6)
+
+
+def test_neighbours_without_time_for_the_way_between_are_turned_by_the_lesser(
+    leaning: Leaning, motion: JointMotion
+) -> None:
+    kept, shifts = [(5.0, 6.0), (6.05, 9.0)], [math.radians(8.0), math.radians(2.0)]
+    lean = leaning.leaned(motion, FORWARD, (5.0, 9.0), kept, shifts)
+    assert lean is not None
+    assert degrees(lean.motion, 5.0, 6.02, 9.0) == pytest.approx([2.0] * 3, abs=1e-6)
+
+
+def test_a_sign_that_begins_with_the_motion_cannot_be_turned(leaning: Leaning, motion: JointMotion) -> None:
+    assert leaning.leaned(motion, FORWARD, (0.0, 20.0), [(0.0, 20.0)], [FORWARD]) is None
+    lean = leaning.leaned(motion, FORWARD, (0.0, 9.0), [(0.0, 2.0)], [FORWARD])
+    assert lean is not None
+    assert degrees(lean.motion, 0.0, 2.0, 5.0) == pytest.approx([0.0, 0.0, 9.0], abs=1e-6)
+
+
+def test_without_time_there_is_no_lean(leaning: Leaning, motion: JointMotion) -> None:
+    assert leaning.leaned(motion, FORWARD, (5.0, 5.2), [(0.0, 5.0), (5.2, 20.0)], [0.0, 0.0]) is None

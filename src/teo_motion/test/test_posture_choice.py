@@ -64,16 +64,6 @@ def test_no_other_choice_of_postures_takes_less_time(make_sign: MakeSign, seed: 
     assert total_time(signs, tuple(chosen)) == pytest.approx(min(total_time(signs, one) for one in every))
 
 
-def test_a_posture_that_is_far_now_is_taken_where_it_is_near_what_follows(make_sign: MakeSign) -> None:
-    here, there = np.zeros((1, 6)), np.full((1, 6), -0.5)
-    both = with_alternatives(make_sign("A", here, joints=RIGHT_ARM), there)
-    away = make_sign("B", there, joints=RIGHT_ARM)
-    far = make_sign("C", np.full((1, 6), -0.9), joints=RIGHT_ARM)
-    start = REST.copy()
-    start[[COMMANDED_JOINTS.index(name) for name in RIGHT_ARM]] = -0.9
-    assert shortest_postures([far, both, away], start, REST, LIMITS) == [0, 1, 0]
-
-
 def test_a_doubled_letter_keeps_its_posture(make_sign: MakeSign) -> None:
     letter = with_alternatives(make_sign("L", np.full((1, 6), -0.8), joints=RIGHT_ARM), np.zeros((1, 6)))
     start = REST.copy()

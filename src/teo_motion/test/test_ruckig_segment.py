@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from teo_motion.trajectory.ruckig_segment import Bounds, RuckigSegment, RuckigSolver, State
-from teo_motion.trajectory.waypoint_states import waypoint_states
+from teo_motion.trajectory.waypoint_chain import waypoint_states
 from teo_signs.errors import PlanError
 
 numbers = st.floats(-1.0, 1.0)
@@ -53,12 +53,6 @@ def test_the_range_of_a_move_is_exact(
     assert least[0] <= dense.min() + 1e-12 and greatest[0] >= dense.max() - 1e-12
     step = 1.0 / 400 * float(lengths.max())
     assert least[0] >= dense.min() - 0.87 * step and greatest[0] <= dense.max() + 0.87 * step
-
-
-def test_a_move_longer_than_needed_takes_the_time_it_is_given() -> None:
-    segment = moved((0.0, 0.0, 0.0), (0.5, 0.0, 0.0), 2.0)
-    assert segment is not None
-    assert segment.duration == pytest.approx(2.0)
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf])

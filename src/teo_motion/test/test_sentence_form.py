@@ -11,11 +11,12 @@ from teo_motion.sentence.sentence_form import (
     SentenceForm,
     SentenceType,
     check_form,
+    head_gestures,
     printed_form,
     without_marks,
     words_of,
 )
-from teo_sign_languages import load_language
+from teo_sign_languages import HeadGrammar, load_language
 from teo_signs.errors import PlanError
 from teo_signs.tokens import Kind, Token, parse_printed
 
@@ -40,28 +41,19 @@ def test_a_spelled_gloss_with_a_pause_inside_is_one_word() -> None:
     assert word.text == "NO_HAY" and word.negates
 
 
-def test_no_tokens_are_no_words() -> None:
-    assert words_of([], SPANISH) == ()
-
-
-@pytest.mark.parametrize("gloss", ["QUÉ", "POR_QUÉ", "CUÁNTOS", "A-D-O-N-D-E", "C-U-A-L"])
-def test_question_words_ask(gloss: str) -> None:
-    assert words_of(parse_printed(gloss), SPANISH)[0].asks
-
-
-@pytest.mark.parametrize("gloss", ["CUANDO", "PORQUE", "COMER", "Q"])
-def test_conjunctions_and_other_words_do_not_ask(gloss: str) -> None:
-    assert not words_of(parse_printed(gloss), SPANISH)[0].asks
-
-
-@pytest.mark.parametrize("gloss", ["NO", "NO_HAY", "TODAVÍA_NO", "JAMÁS", "N-U-N-C-A", "NADA"])
-def test_negative_signs_negate(gloss: str) -> None:
-    assert words_of(parse_printed(gloss), SPANISH)[0].negates
-
-
-@pytest.mark.parametrize("gloss", ["NOCHE", "BUENO", "DE_NADA", "SÍ", "NOSOTROS"])
-def test_words_that_hold_a_negative_one_do_not_negate(gloss: str) -> None:
-    assert not words_of(parse_printed(gloss), SPANISH)[0].negates
+@pytest.mark.parametrize(
+    ("glosses", "asks", "negates"),
+    [
+        ("QUÉ POR_QUÉ CUÁNTOS A-D-O-N-D-E C-U-A-L", True, False),
+        ("NO NO_HAY TODAVÍA_NO JAMÁS N-U-N-C-A NADA", False, True),
+        # Conjunctions, and words that hold one that asks or negates.
+        ("CUANDO PORQUE COMER Q NOCHE BUENO DE_NADA SÍ NOSOTROS", False, False),
+    ],
+)
+def test_words_ask_negate_or_do_neither(glosses: str, asks: bool, negates: bool) -> None:
+    for gloss in glosses.split():
+        (word,) = words_of(parse_printed(gloss), SPANISH)
+        assert (word.asks, word.negates) == (asks, negates), gloss
 
 
 @pytest.mark.parametrize(
@@ -96,3 +88,64 @@ def test_a_type_that_is_none_is_refused() -> None:
     with pytest.raises(PlanError, match=r"0 statement.*got 9") as refusal:
         check_form(SentenceForm(type=cast(SentenceType, 9)))
     assert refusal.value.code == "bad_type"
+
+
+NO, NEGATED_QUESTION = (
+    SentenceForm(negated=True),
+    SentenceForm(type=SentenceType.YES_NO_QUESTION, negated=True),
+)
+YES_NO, WH, EXCLAMATION = (SentenceForm(type=type_) for type_ in list(SentenceType)[1:])
+SHOUTED_NO = SentenceForm(type=SentenceType.EXCLAMATION, negated=True)
+
+
+@pytest.mark.parametrize(
+    ("text", "form", "gestures"),
+    [
+        ("YO VENIR NO", STATEMENT, []),
+        # The head shakes from the word before a negative sign to its end, else over the whole sentence.
+        ("YO MAÑANA VENIR NO", NO, [("shake", 2, 3)]),
+        ("YO LECHE BEBER N-U-N-C-A", NO, [("shake", 2, 7)]),
+        ("CASA NO_HAY NADIE", NO, [("shake", 0, 2)]),
+        ("NO _ YO VENIR", NO, [("shake", 0, 0)]),
+        ("YO COMER _ NO", NO, [("shake", 3, 3)]),
+        ("COMER NO YO AGUA BEBER NO", NO, [("shake", 0, 1), ("shake", 4, 5)]),
+        ("YO VENIR", NO, [("shake", 0, 1)]),
+        ("_ YO VENIR _", NO, [("shake", 1, 2)]),
+        ("TÚ AGUA BEBER", YES_NO, [("forward", 0, 2)]),
+        ("TÚ VENIR NO", NEGATED_QUESTION, [("shake", 1, 2), ("forward", 0, 2)]),
+        # It is back at question words, or throughout.
+        ("TÚ VIVIR DÓNDE", WH, [("back", 2, 2)]),
+        ("TÚ NOMBRE C-U-A-L", WH, [("back", 2, 5)]),
+        ("QUIÉN COMER QUÉ", WH, [("back", 0, 0), ("back", 2, 2)]),
+        ("TÚ HORA", WH, [("back", 0, 1)]),
+        ("TÚ G-U-A-P-O", EXCLAMATION, [("nod", 5, 5)]),
+        ("TÚ GUAPO _", EXCLAMATION, [("nod", 1, 1)]),
+        ("VENIR NO", SHOUTED_NO, [("shake", 0, 1)]),
+        *(("_ _", form, []) for form in (NO, YES_NO, WH, EXCLAMATION)),
+    ],
+)
+def test_the_head_shows_the_form_of_a_sentence(
+    text: str, form: SentenceForm, gestures: list[tuple[str, int, int]]
+) -> None:
+    assert shown(text, form, SPANISH) == gestures
+    assert shown(text, form, HeadGrammar()) == [], "a language of which nothing is said"
+
+
+@pytest.mark.parametrize(
+    ("text", "form", "gestures"),
+    [
+        ("I NOT KNOW", NO, [("shake", 1, 2)]),
+        ("I KNOW NOT", NO, [("shake", 2, 2)]),
+        ("YOUR NAME WHAT", WH, [("forward", 2, 2)]),
+        ("YOU DEAF", YES_NO, [("forward", 0, 1)]),
+    ],
+)
+def test_american_signs_shake_at_what_follows_the_negative_sign_and_lean_forward_to_ask(
+    text: str, form: SentenceForm, gestures: list[tuple[str, int, int]]
+) -> None:
+    assert shown(text, form, AMERICAN) == gestures
+
+
+def shown(text: str, form: SentenceForm, grammar: HeadGrammar) -> list[tuple[str, int, int]]:
+    found = head_gestures(parse_printed(text), form, grammar)
+    return [(gesture.kind.value, gesture.first, gesture.last) for gesture in found]

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Callable
 
 import numpy as np
@@ -13,11 +12,9 @@ from nearest_parts import touching
 
 from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
-from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.sentence.sign_size import SignSize
 from teo_motion.trajectory.limits import MotionLimits
 from teo_names import COMMANDED_JOINTS, RIGHT_ARM, RIGHT_HAND
-from teo_signs.errors import PlanError
 from teo_signs.lexicon import SignedToken
 from teo_signs.look_up_table import Lut
 from teo_signs.sign import Sign
@@ -130,9 +127,3 @@ def test_contacts_of_the_table_are_kept(robot: Robot) -> None:
                 contacts += 1
                 assert distances[1] < distances[0] + 0.016, gloss  # 0.05 rad is the same contact
     assert contacts > 5
-
-
-def test_a_size_above_one_is_refused() -> None:
-    with pytest.raises(PlanError, match="least_size: expected 0 to 1") as refusal:
-        dataclasses.replace(SigningStyle(), least_size=1.5)
-    assert refusal.value.code == "bad_style"

@@ -74,12 +74,6 @@ def test_a_way_that_the_joint_cannot_make_is_none() -> None:
     assert splicer.spliced(motion, 2.0, [StandPoint(2.5, 0.6)], 3.0) is None, "outside the limits"
 
 
-def test_a_way_without_knots_goes_straight() -> None:
-    changed = Splicer(BOUNDS).spliced(there_and_back(), 0.5, [], 4.5)
-    assert changed is not None
-    np.testing.assert_allclose(changed.at(np.linspace(0.0, 5.0, 50))[0], 0.0, atol=1e-12)
-
-
 def test_a_turned_part_jumps_at_its_ends_and_a_splice_bridges_that() -> None:
     motion = shifted(there_and_back(), 2.0, 3.0, 0.1)
     assert position_at(motion, 2.0, side="left") == pytest.approx(0.3)

@@ -4,12 +4,11 @@
 
 from teo_sim_driver.checking.reading import Points
 from teo_sim_driver.checking.validation import check
-from teo_sim_driver.errors import DriverError, Refusal, TrajectoryError
 from teo_sim_driver.follower_report import FollowerReport, Mode, Source
 from teo_sim_driver.joint_follower import JointFollower
 from teo_sim_driver.motion.trajectory import MotionState, Trajectory
 from teo_sim_driver.position_direct import PositionDirect, position_direct
-from teo_sim_driver.rules import Rules
+from teo_sim_driver.rules import DriverError, Refusal, Rules, TrajectoryError
 
 __all__ = [
     "DriverError",

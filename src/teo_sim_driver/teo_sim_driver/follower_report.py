@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""What the follower says about itself."""
+"""What the driver is doing, whether it takes trajectories, and what it says about itself."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from collections import Counter
 from dataclasses import dataclass, field
 from enum import StrEnum
 
-from teo_sim_driver.errors import TrajectoryError
+from teo_common.diagnostics import Diagnosis, Level, RateReport
+from teo_sim_driver.rules import Refusal, TrajectoryError
 
 
 class Mode(StrEnum):
@@ -73,3 +74,137 @@ class FollowerReport:
     limited_joints: tuple[str, ...]
     """Joints that the guard held back last."""
     clock_jumps: int
+
+
+# Modes in which nothing is taken, the first that holds goes first; with the refusal's code and what to do.
+_BLOCKING = {
+    Mode.INACTIVE: (Refusal.INACTIVE, "activate it (`ros2 lifecycle set ... activate`), then send it again"),
+    Mode.FAULT: (Refusal.FAULT, "mend the cause, call `rearm`, then send it again"),
+    Mode.STOPPED: (Refusal.STOPPED, "call `rearm`, then send it again"),
+    Mode.PAUSED: (Refusal.PAUSED, "resume, or stop and re-arm, then send it again"),
+}
+
+
+class Gate:
+    """Open unless it is blocked or paused."""
+
+    def __init__(self) -> None:
+        self.blocks: dict[Mode, str] = {}
+        """Modes in which nothing moves until they are released, and why."""
+        self.paused = False
+        """Whether somebody paused it."""
+        self.scaling = 1.0
+        """Speed scaling factor that was asked for, 0..1."""
+
+    @property
+    def pace(self) -> float:
+        """At which the path is to be executed, 0..1."""
+        return 0.0 if self.paused else self.scaling
+
+    def mode(self, moving: bool) -> Mode:
+        """What it is doing, if a trajectory is being executed or not."""
+        for mode in _BLOCKING:
+            if mode in self.blocks:
+                return mode
+        if self.pace == 0.0:
+            return Mode.PAUSED
+        return Mode.MOVING if moving else Mode.HOLDING
+
+    def reason(self, mode: Mode) -> str:
+        """Why it is paused, stopped, inactive or in fault; empty in the other modes."""
+        if mode is Mode.PAUSED:
+            return "paused" if self.paused else "the speed scaling factor is 0"
+        return self.blocks.get(mode, "")
+
+    def check(self, moving: bool) -> None:
+        """Let a trajectory through.
+
+        Raises:
+            TrajectoryError: in a mode in which nothing is taken.
+        """
+        mode = self.mode(moving)
+        if mode in _BLOCKING:
+            code, remedy = _BLOCKING[mode]
+            raise TrajectoryError(code, f"{self.reason(mode)}: {remedy}")
+
+
+# A tenth below the nominal rate: beyond the jitter of a busy machine.
+_SLOW = 0.9
+
+# After a refusal was logged, those of the same code are only counted for this long [s].
+_QUIET = 1.0
+
+
+def assess(
+    report: FollowerReport, rate: RateReport, *, nominal_rate: float, before: FollowerReport | None = None
+) -> Diagnosis:
+    """Judge the driver's state.
+
+    Args:
+        report: Of the follower, now.
+        rate: Since the last time.
+        nominal_rate: What the rate should be [Hz].
+        before: The follower's report of the last time; what is new since then is judged.
+    """
+    level, message = Level.OK, str(report.mode)
+    if report.reason:
+        message += f": {report.reason}"
+        level = Level.ERROR if report.mode is Mode.FAULT else Level.WARN
+    refused = sum(report.refused.values())
+    if level is Level.ERROR:
+        pass
+    elif refused > (sum(before.refused.values()) if before else 0) and report.last_refusal:
+        level, message = Level.WARN, f"trajectory refused: {report.last_refusal.code}"
+    elif 0.0 < rate.rate < _SLOW * nominal_rate:
+        level, message = Level.WARN, f"{rate.rate:.1f} steps per second instead of {nominal_rate:g}"
+    if report.limited_steps > (before.limited_steps if before else 0):
+        level, message = Level.ERROR, f"steps limited: {', '.join(report.limited_joints)}"
+    return Diagnosis(level, message, _values(report, rate, refused))
+
+
+def _values(report: FollowerReport, rate: RateReport, refused: int) -> dict[str, str]:
+    last = report.last_refusal
+    values = {
+        "state": str(report.mode),
+        "reason": report.reason,
+        "commanded by": ", ".join(report.commands),
+        "speed scaling": f"{report.speed_scaling:.3f}",
+        "elapsed [s]": f"{report.path_time:.3f}",
+        "duration [s]": f"{report.path_duration:.3f}",
+        "accepted": str(report.accepted),
+        "refused": str(refused),
+        "last refusal code": last.code if last else "",
+        "last refusal": last.sentence if last else "",
+        "limited steps": str(report.limited_steps),
+        "limited joints": ", ".join(report.limited_joints),
+        "clock jumps": str(report.clock_jumps),
+        "rate [Hz]": f"{rate.rate:.1f}",
+        "longest gap [ms]": f"{1e3 * rate.longest_gap:.1f}",
+        "longest step [ms]": f"{1e3 * rate.longest_step:.2f}",
+    }
+    values.update({f"refused {code}": str(count) for code, count in sorted(report.refused.items())})
+    return values
+
+
+class RefusalLog:
+    """Decides which refusals are logged, so that a sender that goes wrong often does not fill the disk."""
+
+    def __init__(self) -> None:
+        self._logged_at: dict[str, float] = {}
+        self._unlogged: dict[str, int] = {}
+
+    def line(self, refusal: TrajectoryError, now: float) -> str | None:
+        """Line to log, or None to be quiet.
+
+        Args:
+            refusal: What happened.
+            now: On a clock that nobody sets [s].
+        """
+        logged_at = self._logged_at.get(refusal.code)
+        if logged_at is not None and now - logged_at < _QUIET:
+            self._unlogged[refusal.code] = self._unlogged.get(refusal.code, 0) + 1
+            return None
+        self._logged_at[refusal.code] = now
+        more = self._unlogged.pop(refusal.code, 0)
+        line = f"trajectory refused ({refusal.code}): {refusal.sentence}"
+        return f"{line} [{more} more of this code since the last line]" if more else line

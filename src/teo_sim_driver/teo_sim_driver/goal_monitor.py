@@ -7,14 +7,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from teo_sim_driver.checking.reading import quoted
-from teo_sim_driver.errors import Refusal, TrajectoryError
 from teo_sim_driver.motion.bezier import FloatArray
 from teo_sim_driver.motion.trajectory import MotionState
+from teo_sim_driver.rules import Refusal, TrajectoryError
+
+if TYPE_CHECKING:  # of their fields alone
+    from control_msgs.msg import JointTolerance
 
 # A tolerance that says that the joint may be anywhere.
 _ERASED = -1.0
@@ -47,26 +50,6 @@ def result_code(refusal: str) -> ResultCode:
     return _RESULT.get(Refusal(refusal), ResultCode.INVALID_GOAL)
 
 
-class _ToleranceLike(Protocol):
-    """control_msgs/JointTolerance."""
-
-    @property
-    def name(self) -> str:
-        """Of the joint."""
-
-    @property
-    def position(self) -> float:
-        """[rad]; 0 for the default, -1 for any."""
-
-    @property
-    def velocity(self) -> float:
-        """[rad/s]; 0 for the default, -1 for any."""
-
-    @property
-    def acceleration(self) -> float:
-        """[rad/s^2]; is not measured, and refused."""
-
-
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Tolerances:
     """How far the joints may be from where they are to be; infinite where it does not matter.
@@ -85,10 +68,9 @@ class Tolerances:
     @staticmethod
     def read(
         joints: Sequence[str],
-        path: Iterable[_ToleranceLike],
-        goal: Iterable[_ToleranceLike],
+        path: Iterable[JointTolerance],
+        goal: Iterable[JointTolerance],
         goal_time: float,
-        goal_default: float = np.inf,
     ) -> Tolerances:
         """Read the tolerances of a goal.
 
@@ -97,7 +79,6 @@ class Tolerances:
             path: On the way.
             goal: At the end.
             goal_time: [s].
-            goal_default: Position tolerance at the end of joints that the goal gives none for [rad].
 
         Raises:
             TrajectoryError: ``bad_tolerance``.
@@ -107,17 +88,14 @@ class Tolerances:
                 Refusal.BAD_TOLERANCE, f"expected goal_time_tolerance >= 0 s, got {goal_time:g} s"
             )
         return Tolerances(
-            path=_table(joints, path, "path_tolerance", np.inf),
-            goal=_table(joints, goal, "goal_tolerance", goal_default),
+            path=_table(joints, path, "path_tolerance"),
+            goal=_table(joints, goal, "goal_tolerance"),
             goal_time=goal_time,
         )
 
 
-def _table(
-    joints: Sequence[str], tolerances: Iterable[_ToleranceLike], what: str, default: float
-) -> FloatArray:
+def _table(joints: Sequence[str], tolerances: Iterable[JointTolerance], what: str) -> FloatArray:
     table = np.full((2, len(joints)), np.inf)
-    table[0] = default
     for each in tolerances:
         if each.name not in joints:
             raise TrajectoryError(Refusal.BAD_TOLERANCE, f"{what}: no joint is called {quoted(each.name)}")

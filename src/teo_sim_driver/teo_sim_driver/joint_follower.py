@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""What the joints do: follow a trajectory, faster or slower, hold, or stop."""
+"""What the joints do: follow a trajectory, faster or slower, hold, or stop.
+
+The last line of defence: whatever was computed, no step is faster than the robot or outside its limits.
+"""
 
 from __future__ import annotations
 
@@ -9,15 +12,22 @@ import numpy as np
 from teo_description import JointLimits
 from teo_sim_driver.checking.reading import Points
 from teo_sim_driver.checking.scheduling import schedule
-from teo_sim_driver.errors import DriverError, Refusal, TrajectoryError
-from teo_sim_driver.follower_report import FollowerReport, Mode, Source, Tally
-from teo_sim_driver.gate import Gate
+from teo_sim_driver.follower_report import FollowerReport, Gate, Mode, Source, Tally
 from teo_sim_driver.motion.bezier import FloatArray
 from teo_sim_driver.motion.commanded_path import Command, CommandedPath
 from teo_sim_driver.motion.path_time import DEFAULT_BRAKING, Braking, PathClock, PathPace, fastest_ahead
-from teo_sim_driver.motion.step_guard import StepGuard
 from teo_sim_driver.motion.trajectory import MotionState, Trajectory
-from teo_sim_driver.rules import Rules
+from teo_sim_driver.rules import (
+    POSITION_TOLERANCE,
+    VELOCITY_TOLERANCE,
+    DriverError,
+    Refusal,
+    Rules,
+    TrajectoryError,
+)
+
+# Rounding of one step [rad].
+_ROUNDING = 1e-9
 
 
 class JointFollower:
@@ -57,7 +67,6 @@ class JointFollower:
         self.rules = rules or Rules()
         self.braking = braking
         self.limits = limits
-        self._guard = StepGuard(limits)
         self._clock = PathClock(period)
         self.step_duration = 0.0
         """Of the last step [s]."""
@@ -88,15 +97,8 @@ class JointFollower:
         asked = self._advance(duration)
         if asked.positions is self._sent.positions:  # holding still
             return self._sent
-        guarded = self._guard.limit(asked.positions, self._sent.positions, duration)
-        if guarded.limited:
-            self._tally.limited_steps += 1
-            self._tally.limited_joints = guarded.limited
-            moved = guarded.positions - self._sent.positions
-            velocities = moved / duration if duration > 0.0 else np.zeros_like(moved)
-            asked = MotionState(guarded.positions, velocities, np.zeros_like(moved))
-        self._sent = asked
-        return asked
+        self._sent = self._guarded(asked, duration)
+        return self._sent
 
     def take(self, points: Points, now: int, source: Source = Source.NONE, group: str = "") -> Command:
         """Take a checked trajectory in place of what its joints do at present, from its start time on.
@@ -246,6 +248,34 @@ class JointFollower:
             limited_joints=self._tally.limited_joints,
             clock_jumps=self._clock.jumps,
         )
+
+    def _guarded(self, asked: MotionState, duration: float) -> MotionState:
+        """The last line of defence: whatever was computed, no step is too fast or leaves the limits.
+
+        Trajectories are checked before, so a step that is limited here is a fault of this driver.
+
+        Args:
+            asked: A joint asked to go to NaN stays.
+            duration: Since the last step [s].
+
+        Returns:
+            The nearest positions to those asked that can be reached.
+        """
+        last, positions = self._sent.positions, asked.positions
+        reach = self.limits.velocity * (1.0 + VELOCITY_TOLERANCE) * duration + _ROUNDING
+        low = np.maximum(self.limits.lower - POSITION_TOLERANCE, last - reach)
+        high = np.minimum(self.limits.upper + POSITION_TOLERANCE, last + reach)
+        inside = (positions >= low) & (positions <= high)
+        if inside.all():
+            return asked
+        self._tally.limited_steps += 1
+        self._tally.limited_joints = tuple(
+            name for name, good in zip(self.limits.names, inside, strict=True) if not good
+        )
+        sent = np.where(np.isnan(positions), last, np.clip(positions, low, high))
+        moved = sent - last
+        still = np.zeros_like(moved)
+        return MotionState(sent, moved / duration if duration > 0.0 else still, still)
 
     def _path_state_in(self, delay: float) -> MotionState:
         """State on the path, at full pace: what a trajectory that takes over begins with, at any pace."""

@@ -11,6 +11,7 @@ import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
 from numpy.typing import NDArray
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
@@ -20,9 +21,10 @@ from trajectory_msgs.msg import JointTrajectory
 from driver_messages import trajectory_message
 from teo_description import JointLimits
 from teo_description.humanoid import Humanoid, load_humanoid
-from teo_names import ALL_JOINTS
+from teo_names import ALL_JOINTS, HOME
 from teo_sim_driver.joint_follower import JointFollower
 from teo_sim_driver.node.driver_node import DriverNode
+from teo_sim_driver.parameters import PARAMETERS
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 PERIOD = 0.01  # [s]
@@ -125,6 +127,28 @@ class Bench:
             assert time.monotonic() < deadline, "it did not happen in time"
             self.executor.spin_once(timeout_sec=0.1)
 
+    def begin_anew(self):
+        """Bring it to rest at home, ready to move; restore its parameters, and forget what was heard."""
+        changeable = [Parameter(row.name, value=row.default) for row in PARAMETERS if not row.read_only]
+        self.driver.set_parameters(changeable)
+        follower, now = self.driver._follower, self.driver.get_clock().now().nanoseconds
+        follower.resume(now)
+        follower.scale(1.0, now)
+        follower.cancel(now)
+        self.until(lambda: follower.trajectory is None)
+        self.driver._rearm()
+        follower.move_rest(load_humanoid().hanging)
+        self.until(lambda: self.mode() == DriverState.MODE_HOLDING and self.driver_states[-1].at_rest)
+        heard = len(self.states)
+        self.until(
+            lambda: (
+                list(self.states[-1].position) == [HOME[name] for name in ALL_JOINTS]
+                and len(self.states) > heard
+            )
+        )
+        assert not any(self.states[-1].velocity)
+        del self.states[:-1], self.driver_states[:-1], self.diagnostics[:]
+
     def call(self, name):
         """Answer of one of the driver's Trigger services."""
         client = self.triggers[name]
@@ -170,6 +194,37 @@ def new_bench(context):
         each.close()
 
 
+class SharedBench:
+    """A bench for many tests, handed on only at rest at home."""
+
+    def __init__(self, domain_id):
+        self._context = rclpy.Context()
+        rclpy.init(context=self._context, domain_id=domain_id)
+        self._bench = None
+
+    def bench(self):
+        if self._bench is not None:
+            try:
+                self._bench.begin_anew()
+            except AssertionError:  # the test before has failed: that is its own matter
+                self._bench.close()
+                self._bench = None
+        self._bench = self._bench or Bench(self._context)
+        return self._bench
+
+    def close(self):
+        if self._bench is not None:
+            self._bench.close()
+        rclpy.try_shutdown(context=self._context)
+
+
+@pytest.fixture(scope="module")
+def shared(module_domain_id):
+    shared = SharedBench(module_domain_id)
+    yield shared
+    shared.close()
+
+
 @pytest.fixture
-def bench(new_bench):
-    return new_bench()
+def bench(shared):
+    return shared.bench()

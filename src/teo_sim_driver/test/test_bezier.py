@@ -33,7 +33,7 @@ def independent(trajectory: Trajectory, segment: int, order: int = 0):
     return BPoly.from_derivatives(trajectory.times[segment : segment + 2], ends).derivative(order)
 
 
-@settings(max_examples=150, deadline=None, derandomize=True)
+@settings(max_examples=40, deadline=None, derandomize=True)
 @given(st.integers(0, 2**32), st.lists(st.sampled_from([LINEAR, CUBIC, QUINTIC]), min_size=1, max_size=4))
 def test_positions_velocities_and_accelerations_agree_with_scipy(seed, degrees):
     trajectory = random_trajectory(seed, degrees)
@@ -47,24 +47,7 @@ def test_positions_velocities_and_accelerations_agree_with_scipy(seed, degrees):
                 np.testing.assert_allclose(values, truth, rtol=1e-9, atol=1e-9 / duration**order)
 
 
-@pytest.mark.parametrize("degree", [LINEAR, CUBIC, QUINTIC])
-def test_a_point_is_passed_exactly_at_its_time(degree):
-    trajectory = random_trajectory(1, [degree] * 5)
-    for i in range(5):
-        np.testing.assert_allclose(
-            trajectory.sample(float(trajectory.times[i])).positions, trajectory.positions[i]
-        )
-
-
-def test_after_the_last_point_it_stands_there():
-    trajectory = random_trajectory(2, [QUINTIC])
-    state = trajectory.sample(trajectory.duration + 5.0)
-    np.testing.assert_array_equal(state.positions, trajectory.positions[-1])
-    assert not state.velocities.any()
-    assert not state.accelerations.any()
-
-
-@settings(max_examples=200, deadline=None, derandomize=True)
+@settings(max_examples=60, deadline=None, derandomize=True)
 @given(
     st.integers(0, 2**32),
     st.lists(st.sampled_from([LINEAR, CUBIC, QUINTIC]), min_size=1, max_size=4),
@@ -84,7 +67,7 @@ def test_a_cut_and_joined_trajectory_is_the_same_motion(seed, degrees, begin, le
         )
 
 
-@settings(max_examples=400, deadline=None, derandomize=True)
+@settings(max_examples=120, deadline=None, derandomize=True)
 @given(
     st.integers(0, 2**32), st.sampled_from([LINEAR, CUBIC, QUINTIC]), st.floats(-0.05, 0.05), st.booleans()
 )

@@ -8,13 +8,11 @@ from rclpy.serialization import serialize_message
 
 from driver_messages import trajectory_message
 from teo_description.humanoid import load_humanoid
-from teo_names import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM
+from teo_names import COMMANDED_JOINTS
 from teo_sim_driver.checking.validation import check
-from teo_sim_driver.errors import TrajectoryError
 from teo_sim_driver.follower_report import Mode, Source
-from teo_sim_driver.groups import joint_groups
 from teo_sim_driver.motion.path_time import SECOND
-from teo_sim_driver.rules import Rules
+from teo_sim_driver.rules import Rules, TrajectoryError, joint_groups
 
 START = 1_700_000_000 * SECOND
 PERIOD = 10_000_000
@@ -54,11 +52,6 @@ class Robot:
 @pytest.fixture
 def robot(new_follower, home):
     return Robot(new_follower(), home)
-
-
-def test_every_commanded_joint_is_in_one_limb():
-    limbs = joint_groups(load_humanoid())[1:]
-    assert sorted(name for group in limbs for name in group.joints) == sorted(COMMANDED_JOINTS)
 
 
 def test_two_limbs_move_at_once_each_to_its_own_end(robot, new_follower, home):
@@ -105,16 +98,6 @@ def test_of_a_command_that_loses_joints_the_others_slow_down_and_hold(robot, lim
     assert np.abs(np.diff(steps, axis=0)).max() / 0.01**2 < 5.2 + 2.5  # the stop's, and the paths' own
 
 
-def test_the_whole_body_takes_over_from_limbs(robot):
-    left, right = robot.send("left_arm", LEFT, -0.5), robot.send("right_arm", RIGHT, -0.5)
-    robot.run(1.0)
-    whole = robot.send("", RIGHT, 0.0)
-    assert left.preempted_by is whole
-    assert right.preempted_by is whole
-    robot.run(3.5)
-    assert robot.at(LEFT) == robot.home[column(LEFT)]
-
-
 def test_one_limb_is_cancelled_while_the_other_goes_on(robot):
     left, right = robot.send("left_arm", LEFT, -0.5), robot.send("right_arm", RIGHT, -0.5)
     robot.run(1.5)
@@ -145,40 +128,10 @@ def test_a_limb_cancelled_in_a_pause_is_over_at_once(robot):
     assert robot.at(RIGHT) == robot.home[column(RIGHT)] - 0.5
 
 
-def test_until_a_scheduled_limb_starts_all_goes_on(robot):
-    robot.send("", RIGHT, -0.5)
-    robot.run(0.5)
-    robot.send("left_arm", LEFT, -0.5, stamp=robot.now + SECOND)
-    positions = robot.run(1.0)
-    assert (np.diff(positions[:, column(RIGHT)]) < 0.0).all()
-    assert np.abs(positions[:, column(LEFT)] - robot.home[column(LEFT)]).max() < 1e-12
-    robot.run(4.0)
-    assert robot.at(LEFT) == robot.home[column(LEFT)] - 0.5
-    assert robot.at(RIGHT) > robot.home[column(RIGHT)] - 0.5
-
-
-def test_stop_stops_every_limb(robot):
-    left, right = robot.send("left_arm", LEFT, -0.5), robot.send("right_arm", RIGHT, -0.5)
-    robot.run(1.0)
-    remaining = robot.follower.block(Mode.STOPPED, "stopped", robot.now)
-    robot.run(remaining + 0.02)
-    assert left.over
-    assert right.over
-    assert not robot.states[-1].velocities.any()
-
-
-def test_joints_of_another_limb_are_refused_and_so_are_missing_ones(limits):
-    for names, code in ((RIGHT_ARM, "other_group"), (LEFT_ARM[:5], "missing_joints")):
-        message = trajectory_message(names, [1.0], np.zeros((1, len(names))))
-        with pytest.raises(TrajectoryError) as refusal:
-            check(serialize_message(message), limits=limits, rules=Rules(), group=LEFT_ARM)
-        assert refusal.value.code == code
-
-
 def test_random_commands_of_limbs_and_body_break_no_limit_and_never_step(robot, limits):
     rng = np.random.default_rng(5)
     home, taken = robot.home, 0
-    for _ in range(150):
+    for _ in range(60):
         name = str(rng.choice(list(GROUPS)))
         joints = GROUPS[name].joints
         columns = [column(joint) for joint in joints]
@@ -204,7 +157,7 @@ def test_random_commands_of_limbs_and_body_break_no_limit_and_never_step(robot, 
             robot.follower.cancel(robot.now, command)
             robot.run(0.3)  # a lone command's stop takes nothing new
         robot.run(rng.choice([0.01, 0.1, 0.5, 2.0]))
-    assert taken > 100
+    assert taken > 40
     positions = np.array([state.positions for state in robot.states])
     velocities = np.array([state.velocities for state in robot.states])
     assert (positions >= limits.lower - 1.5e-5).all()

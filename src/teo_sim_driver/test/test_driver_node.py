@@ -4,7 +4,6 @@ import signal
 import subprocess
 import sys
 import time
-from array import array
 
 import numpy as np
 import pytest
@@ -19,14 +18,15 @@ from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import JointState
+from simulated_clock import SECOND, SimulatedClock
 from std_msgs.msg import Float64MultiArray, String
 from teo_sign_msgs.msg import DriverState
-from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+from trajectory_msgs.msg import JointTrajectory
 
 from teo_names import ALL_JOINTS, HOME, LEG_JOINTS, urdf_text
-from teo_sim_driver.errors import DriverError
 from teo_sim_driver.node.driver_node import DriverNode
 from teo_sim_driver.parameters import PARAMETERS
+from teo_sim_driver.rules import DriverError
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
@@ -41,8 +41,7 @@ def test_a_bad_trajectory_is_refused_with_its_reason_and_a_good_one_then_reaches
     bad = one_way(duration=2.0, angle=-0.2)
     bad.points[4].positions[7] = float("nan")
     bench.commands.publish(bad)
-    bench.until(lambda: bench.diagnostics and bench.said("refused") == "1")
-    assert bench.said("last refusal code") == "not_finite"
+    bench.until(lambda: bench.diagnostics and bench.said("last refusal code") == "not_finite")
     assert "FrontalLeftElbow" in bench.said("last refusal")
     assert bench.diagnostics[-1].status[0].level == b"\x01"
 
@@ -59,7 +58,7 @@ def test_a_bad_trajectory_is_refused_with_its_reason_and_a_good_one_then_reaches
     motion = np.array([s.position for s in bench.states])
     assert (np.diff(stamps) > 0.0).all()
     assert (np.abs(np.diff(motion, axis=0)).max(axis=1) <= 0.8727 * np.diff(stamps) + 1e-4).all()
-    bench.until(lambda: bench.said("state") == "holding" and bench.said("accepted") == "1")
+    bench.until(lambda: bench.said("state") == "holding" and bench.said("accepted") != "0")
     assert bench.said("limited steps") == "0"
 
 
@@ -185,22 +184,6 @@ def test_a_joint_that_does_not_follow_is_a_fault_and_afterwards_held_where_it_is
     assert bench.call("rearm").success
 
 
-def test_states_that_are_lost_or_late_are_seen_so(bench, one_way):
-    def inject(name, value):
-        assert bench.driver.set_parameters([Parameter(name, value=value)])[0].successful
-
-    inject("fault_state_delay", 0.5)
-    del bench.states[:]
-    bench.until(lambda: len(bench.states) > 3)
-    now = bench.driver.get_clock().now().nanoseconds
-    stamp = bench.states[-1].header.stamp
-    assert now - (stamp.sec * 10**9 + stamp.nanosec) > 0.45e9
-    inject("fault_state_loss", 1.0)
-    bench.commands.publish(one_way())
-    bench.until(lambda: bench.driver_states[-1].path_time > 1.0)  # it moves, and nobody hears of it
-    assert len(bench.states) < 100
-
-
 def test_messages_and_goals_of_many_points_do_not_stop_the_joint_states(context, one_way):
     driver = subprocess.Popen(
         [sys.executable, "-c", "from teo_sim_driver.node.driver_node import main; main()"],
@@ -256,46 +239,17 @@ def test_messages_and_goals_of_many_points_do_not_stop_the_joint_states(context,
         client.destroy_node()
 
 
-def test_garbage_is_survived(bench, one_way):
-    good = one_way(duration=2.0, angle=-0.1)
-    garbage = [JointTrajectory() for _ in range(6)]
-    garbage[1].joint_names = ["", "\x01", "ñandú"]
-    garbage[2].joint_names = list(good.joint_names)
-    garbage[3].points = [JointTrajectoryPoint() for _ in range(3)]
-    garbage[4].joint_names = list(good.joint_names)
-    garbage[4].points = [JointTrajectoryPoint(effort=array("d", [1.0] * 1000)) for _ in range(3)]
-    garbage[5].joint_names = ["AxialNeck"] * 5000
-    for i, message in enumerate(garbage):
-        bench.commands.publish(message)
-        bench.until(lambda i=i: bench.driver._follower.report().refused and sum_refused(bench) == i + 1)
-    bench.commands.publish(good)
-    bench.until(lambda: abs(bench.position("FrontalRightElbow") - good.points[-1].positions[13]) < 1e-9)
-
-
-def sum_refused(bench):
-    return sum(bench.driver._follower.report().refused.values())
-
-
 def test_a_fault_of_its_own_is_reported_and_does_not_end_it(bench, one_way, monkeypatch):
     def fault(*_, **__):
         raise ZeroDivisionError("on purpose")
 
     with monkeypatch.context() as patch:
-        patch.setattr("teo_sim_driver.checking.intake.check", fault)
+        patch.setattr("teo_sim_driver.checking.validation.check", fault)
         bench.commands.publish(one_way())
         bench.until(lambda: bench.diagnostics and bench.said("last refusal code") == "internal")
     assert "on purpose" in bench.said("last refusal")
     bench.commands.publish(one_way())
     bench.until(lambda: bench.position("FrontalRightElbow") < -0.01)
-
-
-def test_every_parameter_has_a_description_and_numbers_have_a_range(bench):
-    for row in PARAMETERS:
-        descriptor = bench.driver.describe_parameter(row.name)
-        assert descriptor.description
-        assert bench.driver.get_parameter(row.name).value == row.default
-        if not isinstance(row.default, bool | str):
-            assert len(descriptor.integer_range) + len(descriptor.floating_point_range) == 1
 
 
 def test_a_parameter_out_of_range_is_refused_and_a_good_one_takes_effect(bench, one_way):
@@ -334,3 +288,45 @@ def test_parameters_may_be_given_at_the_start(new_bench, one_way):
     bench.commands.publish(one_way(joint="RightIndexFinger", angle=np.radians(39.0), duration=1.875))
     bench.until(lambda: bench.diagnostics and bench.said("last refusal code") == "velocity_limit")
     assert "RightIndexFinger" in bench.said("last refusal")
+
+
+@pytest.fixture
+def clock(context):
+    clock = SimulatedClock(context, rate=2.5)
+    yield clock
+    clock.close()
+
+
+def stamp(state):
+    return state.header.stamp.sec * SECOND + state.header.stamp.nanosec
+
+
+def test_by_a_simulators_clock_the_path_is_executed_in_simulated_time(clock, new_bench, one_way):
+    elbow = ALL_JOINTS.index("FrontalRightElbow")
+    bench = new_bench(parameter_overrides=[Parameter("use_sim_time", value=True)])
+    trajectory = one_way(duration=2.0, angle=-0.4)
+    start = clock.now + SECOND
+    trajectory.header.stamp.sec, trajectory.header.stamp.nanosec = divmod(start, SECOND)
+    bench.commands.publish(trajectory)
+    bench.until(lambda: bench.states[-1].position[elbow] < -0.1)
+    clock.pause()
+    for _ in range(10):
+        bench.executor.spin_once(timeout_sec=0.02)
+    heard = len(bench.states)
+    for _ in range(10):
+        bench.executor.spin_once(timeout_sec=0.02)
+    assert len(bench.states) == heard  # no time passes, nothing moves
+    clock.go_on()
+    bench.until(lambda: bench.states[-1].position[elbow] == -0.4)
+    # Where the elbow is says nothing but the stamp: the curve that was sent, in closed form.
+    u = np.clip([(stamp(state) - start) / (2.0 * SECOND) for state in bench.states], 0.0, 0.5)
+    truth = -0.4 * (4.0 * u * (1.0 - u)) ** 3
+    np.testing.assert_allclose([state.position[elbow] for state in bench.states], truth, atol=1e-4)
+    assert len(np.unique(u)) > 10
+
+
+def test_every_number_among_the_parameters_has_a_range():
+    for row in PARAMETERS:
+        assert row.description.endswith(".")
+        numbers = row.low is not None and row.high is not None and row.low <= row.default <= row.high
+        assert isinstance(row.default, bool | str) or numbers, row.name

@@ -7,9 +7,8 @@ import pytest
 from rclpy.serialization import serialize_message
 
 from teo_names import LEG_JOINTS
-from teo_sim_driver.checking.intake import MOST_WAITING, Intake
-from teo_sim_driver.errors import TrajectoryError
-from teo_sim_driver.rules import Rules
+from teo_sim_driver.checking.validation import MOST_WAITING, Intake
+from teo_sim_driver.rules import Rules, TrajectoryError
 
 
 @pytest.fixture

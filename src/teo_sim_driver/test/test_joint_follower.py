@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from driver_messages import send, trajectory_message
-from teo_sim_driver.errors import DriverError, TrajectoryError
 from teo_sim_driver.follower_report import Mode
 from teo_sim_driver.motion.path_time import SECOND
+from teo_sim_driver.rules import DriverError, TrajectoryError
 
 START = 1_700_000_000 * SECOND
 PERIOD = 10_000_000
@@ -18,14 +18,6 @@ def run(follower, begin, seconds, period=PERIOD):
     states = [follower.step(begin + i * period) for i in range(1, round(seconds * SECOND / period) + 1)]
     end = begin + len(states) * period
     return end, np.array([s.positions for s in states]), np.array([s.velocities for s in states])
-
-
-def test_it_stands_still_where_it_starts(new_follower, home):
-    follower = new_follower()
-    _, positions, velocities = run(follower, START, 1.0)
-    np.testing.assert_array_equal(positions, np.tile(home, (100, 1)))
-    assert not velocities.any()
-    assert follower.mode is Mode.HOLDING
 
 
 def test_a_start_outside_the_limits_is_refused(new_follower, home):
@@ -86,17 +78,6 @@ def test_a_new_trajectory_takes_over_at_any_pace_without_a_step(
     assert follower.report().accepted == 2
 
 
-def test_a_scheduled_trajectory_waits_for_its_time(new_follower, swing, home):
-    follower = new_follower()
-    send(follower, swing(stamp=START + SECOND), START)
-    assert follower.mode is Mode.MOVING
-    now, positions, _ = run(follower, START, 1.0)
-    np.testing.assert_allclose(positions, np.tile(home, (100, 1)), rtol=0.0, atol=1e-12)
-    immediate = new_follower()
-    send(immediate, swing(), START)
-    np.testing.assert_allclose(run(follower, now, 4.5)[1], run(immediate, START, 4.5)[1], atol=1e-9)
-
-
 def test_until_a_scheduled_trajectory_starts_the_present_one_goes_on(new_follower, swing, limits, home):
     follower, alone = new_follower(), new_follower()
     send(follower, swing(), START)
@@ -114,18 +95,6 @@ def test_until_a_scheduled_trajectory_starts_the_present_one_goes_on(new_followe
     _, positions, _ = run(follower, now_too, 2.5)
     assert np.abs(np.diff(np.vstack([ours, positions]), axis=0)).max() < limits.velocity[0] * 0.01
     np.testing.assert_array_equal(positions[-1], target)
-
-
-def test_a_trajectory_scheduled_after_the_present_one_ends_waits_at_its_end(
-    new_follower, swing, limits, home
-):
-    follower = new_follower()
-    send(follower, swing(duration=2.0, angle=-0.2), START)
-    send(follower, swing(duration=2.0, angle=-0.2, stamp=START + 3 * SECOND), START)
-    _, positions, _ = run(follower, START, 5.5)
-    elbow = positions[:, limits.names.index(ELBOW)]
-    np.testing.assert_allclose(elbow[200:300], home[limits.names.index(ELBOW)], atol=1e-9)
-    np.testing.assert_allclose(elbow[300:500], elbow[:200], atol=1e-9)
 
 
 @pytest.mark.parametrize("moment", [0.05, 0.5, 1.0, 1.7, 3.9])
@@ -148,19 +117,6 @@ def test_stop_ends_at_rest_on_the_path_in_the_time_it_says(new_follower, swing, 
     # What stopping adds, and what the path itself asks: 1.5 rad/s^2 at u = 1/2.
     acceleration = np.diff(np.vstack([v_before[-1:], velocities]), axis=0) / 0.01
     assert np.abs(acceleration).max() <= 5.2 + 1.5 + 0.05
-
-
-def test_stop_when_at_rest_says_so(new_follower):
-    follower = new_follower()
-    assert follower.cancel(START) == 0.0
-    assert follower.mode is Mode.HOLDING
-
-
-def test_stop_forgets_a_scheduled_trajectory(new_follower, swing, home):
-    follower = new_follower()
-    send(follower, swing(stamp=START + SECOND), START)
-    follower.cancel(START)
-    np.testing.assert_array_equal(run(follower, START, 3.0)[1][-1], home)
 
 
 def test_while_stopping_a_trajectory_is_refused_and_afterwards_served(new_follower, swing, limits):
@@ -197,14 +153,6 @@ def test_a_late_step_keeps_to_the_time_of_the_path(new_follower, swing):
     _, positions, _ = run(steady, START, 0.7)
     np.testing.assert_allclose(late.positions, positions[-1], atol=1e-9)
     assert follower.report().clock_jumps == 0
-
-
-def test_the_same_time_twice_is_the_same_state(new_follower, swing):
-    follower = new_follower()
-    send(follower, swing(), START)
-    now, positions, _ = run(follower, START, 1.0)
-    np.testing.assert_allclose(follower.step(now).positions, positions[-1], atol=1e-12)
-    assert follower.report().limited_steps == 0
 
 
 def test_a_fault_above_the_guard_is_limited_counted_and_reported(new_follower, swing, limits):

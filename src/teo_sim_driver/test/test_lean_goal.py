@@ -9,7 +9,7 @@ from control_msgs.msg import JointTolerance
 from rclpy.serialization import deserialize_message, serialize_message
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from teo_sim_driver.checking.cdr import FIELDS
+from teo_sim_driver.checking.reading import FIELDS
 from teo_sim_driver.node.lean_goal import lean_action
 
 RequestType = FollowJointTrajectory.Impl.SendGoalService.Request

@@ -29,11 +29,6 @@ def run(plant, goal, steps):
     return state.positions
 
 
-def test_without_faults_the_joints_are_where_they_were_told_to_be(plant):
-    asked = at(0.1, 0.2)
-    assert plant.step(asked, 0.01) is asked
-
-
 def test_a_frozen_joint_stays_and_catches_up_no_faster_than_it_can_when_it_is_freed(plant):
     plant.step(at(0.1, 0.1), 0.01)
     plant.faults = Faults(frozen=("elbow",))
@@ -54,12 +49,6 @@ def test_a_lag_is_of_first_order(plant):
 def test_a_tracking_error_and_the_steps_of_an_encoder_are_measured(plant):
     plant.faults = Faults(tracking_error=0.013, encoder_step=0.01)
     np.testing.assert_allclose(run(plant, at(0.1, -0.1), 1), [0.11, -0.09])
-
-
-def test_the_velocity_is_that_of_what_is_measured(plant):
-    plant.faults = Faults(encoder_step=0.01)
-    assert plant.step(at(0.014, 0.0), 0.01).velocities.tolist() == [1.0, 0.0]
-    assert plant.step(at(0.014, 0.0), 0.01).velocities.tolist() == [0.0, 0.0]
 
 
 def test_late_states_keep_their_order_and_their_time():

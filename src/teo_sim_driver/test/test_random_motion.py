@@ -10,12 +10,13 @@ import pytest
 from builtin_interfaces.msg import Duration, Time
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from trajectory_msgs.msg import JointTrajectoryPoint
 
 from driver_messages import send, trajectory_message
 from teo_description.humanoid import load_humanoid
-from teo_sim_driver.errors import Refusal, TrajectoryError
 from teo_sim_driver.follower_report import Mode
 from teo_sim_driver.motion.path_time import SECOND, Braking
+from teo_sim_driver.rules import Refusal, TrajectoryError
 
 START = 1_700_000_000 * SECOND
 FRACTIONS = np.linspace(0.0, 1.0, 401)
@@ -116,7 +117,7 @@ class Watch:
 
 
 @pytest.mark.slow
-@settings(max_examples=1000, deadline=None, derandomize=True)
+@settings(max_examples=150, deadline=None, derandomize=True)
 @given(seed=st.integers(0, 2**32), tightness=st.floats(0.6, 1.0))
 def test_what_is_within_the_limits_is_accepted_and_executed_within_them(
     new_follower, limits, home, seed, tightness
@@ -131,7 +132,7 @@ def test_what_is_within_the_limits_is_accepted_and_executed_within_them(
     assert watch.follower.report().limited_steps == 0
 
 
-@settings(max_examples=150, deadline=None, derandomize=True)
+@settings(max_examples=40, deadline=None, derandomize=True)
 @given(seed=st.integers(0, 2**32), tightness=st.floats(1.002, 3.0))
 def test_a_trajectory_over_the_speed_limit_is_refused_for_its_speed(
     new_follower, limits, home, seed, tightness
@@ -143,7 +144,7 @@ def test_a_trajectory_over_the_speed_limit_is_refused_for_its_speed(
     assert refusal.value.code in TOO_FAST
 
 
-@settings(max_examples=150, deadline=None, derandomize=True)
+@settings(max_examples=40, deadline=None, derandomize=True)
 @given(seed=st.integers(0, 2**32))
 def test_stopping_at_any_time_breaks_no_limit_and_ends_at_rest(new_follower, limits, home, seed):
     rng = np.random.default_rng(seed)
@@ -165,7 +166,7 @@ def test_stopping_at_any_time_breaks_no_limit_and_ends_at_rest(new_follower, lim
     assert watch.follower.report().limited_steps == 0
 
 
-@settings(max_examples=40, deadline=None, derandomize=True)
+@settings(max_examples=15, deadline=None, derandomize=True)
 @given(seed=st.integers(0, 2**32))
 def test_whatever_comes_in_whatever_order_breaks_no_limit(new_follower, limits, seed):
     rng = np.random.default_rng(seed)
@@ -192,96 +193,46 @@ def test_whatever_comes_in_whatever_order_breaks_no_limit(new_follower, limits, 
     assert watch.follower.report().accepted == accepted
 
 
-def _some(rng, sequence):
-    return int(rng.integers(0, len(sequence))) if len(sequence) else None
-
-
-ODD_NUMBERS = [float("nan"), float("inf"), -float("inf"), 1e308, -1e308, 1e-308, -0.0, 7.0, -7.0, 0.9, 1e5]
+ODD_NUMBERS = [np.nan, np.inf, -np.inf, 1e308, -1e308, 1e-308, -0.0, 7.0, -7.0, 0.9, 1e5]
 ODD_SECONDS = [-(2**31), -1, 0, 1, 2**31 - 1]
 ODD_NANOSECONDS = [0, 1, 999_999_999, 10**9, 2**32 - 1]
-ODD_NAMES = [
-    "",
-    "AxialNeck",
-    "FrontalLeftKnee",
-    "LeftThumbFingerDistal",
-    "ñ\x00",
-    "x" * 100_000,
-    "axialneck",
-]
+ODD_NAMES = ["", "AxialNeck", "FrontalLeftKnee", "LeftThumbFingerDistal", "ñ\x00", "x" * 100_000, "axialneck"]
 ROWS = ("positions", "velocities", "accelerations", "effort")
+SPOILT = ("number", "row", "field", "time", "stamp", "name", "names", "points", "place")
 
 
-def spoil_number(rng, message):
-    if message.points:
-        point = message.points[_some(rng, message.points)]
-        field = ROWS[rng.integers(0, 4)]
-        row = list(getattr(point, field))
-        if row:
-            row[_some(rng, row)] = ODD_NUMBERS[_some(rng, ODD_NUMBERS)]
+def spoil(rng, message, what):
+    """Make one thing of a message odd."""
+
+    def one_of(things):
+        return things[rng.integers(len(things))]
+
+    points, names, field = message.points, message.joint_names, one_of(ROWS)
+    point = one_of(points) if points else JointTrajectoryPoint()
+    row = list(getattr(point, field))
+    seconds, nanoseconds = one_of(ODD_SECONDS), one_of(ODD_NANOSECONDS)
+    match what:
+        case "number" if row:
+            row[rng.integers(len(row))] = one_of(ODD_NUMBERS)
             setattr(point, field, row)
-
-
-def spoil_row(rng, message):
-    if message.points:
-        point = message.points[_some(rng, message.points)]
-        field = ROWS[rng.integers(0, 4)]
-        row = list(getattr(point, field))
-        setattr(point, field, [[], row[:-1], [*row, 0.0], row * 50, [0.0] * 28][rng.integers(0, 5)])
-
-
-def spoil_field(rng, message):
-    field = ROWS[rng.integers(0, 4)]
-    for point in message.points:
-        setattr(point, field, [])
-
-
-def spoil_time(rng, message):
-    if message.points:
-        point = message.points[_some(rng, message.points)]
-        point.time_from_start = Duration(
-            sec=ODD_SECONDS[_some(rng, ODD_SECONDS)], nanosec=ODD_NANOSECONDS[_some(rng, ODD_NANOSECONDS)]
-        )
-
-
-def spoil_stamp(rng, message):
-    message.header.stamp = Time(
-        sec=ODD_SECONDS[_some(rng, ODD_SECONDS)], nanosec=ODD_NANOSECONDS[_some(rng, ODD_NANOSECONDS)]
-    )
-
-
-def spoil_name(rng, message):
-    if message.joint_names:
-        message.joint_names[_some(rng, message.joint_names)] = ODD_NAMES[_some(rng, ODD_NAMES)]
-
-
-def spoil_names(rng, message):
-    names = message.joint_names
-    message.joint_names = [[], names[:-1], [*names, *names], names[::-1], ["AxialNeck"]][rng.integers(0, 5)]
-
-
-def spoil_points(rng, message):
-    points = message.points
-    message.points = [[], points[::-1], points[:1], points[1:], points + points, points[:-1]][
-        rng.integers(0, 6)
-    ]
-
-
-def move_points(rng, message):
-    for point in message.points:
-        point.positions = [p + rng.normal(scale=0.3) for p in point.positions]
-
-
-SPOIL = [
-    spoil_number,
-    spoil_row,
-    spoil_field,
-    spoil_time,
-    spoil_stamp,
-    spoil_name,
-    spoil_names,
-    spoil_points,
-    move_points,
-]
+        case "row":
+            setattr(point, field, one_of([[], row[:-1], [*row, 0.0], row * 50, [0.0] * 28]))
+        case "field":
+            for each in points:
+                setattr(each, field, [])
+        case "time":
+            point.time_from_start = Duration(sec=seconds, nanosec=nanoseconds)
+        case "stamp":
+            message.header.stamp = Time(sec=seconds, nanosec=nanoseconds)
+        case "name" if names:
+            names[rng.integers(len(names))] = one_of(ODD_NAMES)
+        case "names":
+            message.joint_names = one_of([[], names[:-1], [*names, *names], names[::-1], ["AxialNeck"]])
+        case "points":
+            message.points = one_of([[], points[::-1], points[:1], points[1:], points + points, points[:-1]])
+        case "place":
+            for each in points:
+                each.positions = [position + rng.normal(scale=0.3) for position in each.positions]
 
 
 @pytest.mark.slow
@@ -289,13 +240,13 @@ def test_thousands_of_spoilt_messages_never_crash_and_always_get_a_reason(new_fo
     good = swing(duration=0.6, angle=-0.05)
     codes: Counter[str] = Counter()
 
-    @settings(max_examples=1250, deadline=None, derandomize=True)
-    @given(seed=st.integers(0, 2**32), spoil=st.lists(st.sampled_from(SPOIL), min_size=1, max_size=4))
-    def check(seed, spoil):
+    @settings(max_examples=300, deadline=None, derandomize=True)
+    @given(seed=st.integers(0, 2**32), spoilt=st.lists(st.sampled_from(SPOILT), min_size=1, max_size=4))
+    def check(seed, spoilt):
         rng = np.random.default_rng(seed)
         message = copy.deepcopy(good)
-        for each in spoil:
-            each(rng, message)
+        for what in spoilt:
+            spoil(rng, message, what)
         watch = Watch(new_follower(), limits)
         try:
             send(watch.follower, message, watch.now)

@@ -7,8 +7,8 @@ import pytest
 
 from driver_messages import send, trajectory_message
 from teo_names import COMMANDED_JOINTS
-from teo_sim_driver.errors import TrajectoryError
 from teo_sim_driver.motion.path_time import SECOND
+from teo_sim_driver.rules import TrajectoryError
 
 START = 1_700_000_000 * SECOND
 ELBOW = COMMANDED_JOINTS.index("FrontalRightElbow")
@@ -37,7 +37,7 @@ def message(home, begin, lead=0.0, **stamp):
 
 
 @pytest.mark.parametrize("ahead", [0.0, 0.2], ids=["at once", "scheduled"])
-@pytest.mark.parametrize("off", [-0.018, -0.004, 0.004, 0.018])
+@pytest.mark.parametrize("off", [-0.018, 0.004])
 @pytest.mark.parametrize("moment", [0.75, 1.3])
 def test_a_sender_whose_clock_is_a_little_off_is_taken_over_smoothly(new_follower, home, moment, off, ahead):
     follower = new_follower()
@@ -61,7 +61,7 @@ def test_a_sender_whose_clock_is_a_little_off_is_taken_over_smoothly(new_followe
     assert np.abs(np.diff(angle, 3)[:-10]).max() * 1e9 <= 3.0 * jerk
 
 
-@pytest.mark.parametrize("begin", np.arange(0.2, 2.2, 0.1))
+@pytest.mark.parametrize("begin", [0.2, 0.9, 1.5, 2.1])
 def test_two_that_take_over_at_the_same_moment_find_the_same_robot(new_follower, home, begin):
     follower = new_follower()
     send(follower, message(home, 0.0), START)

@@ -18,7 +18,7 @@ from report import Figure
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
-from teo_motion.sentence.rest_posture import RestPosture
+from teo_motion.sentence.signing_style import RestPosture
 from teo_motion.trajectory.limits import MotionLimits
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.pipeline.translator import Translator

@@ -47,10 +47,10 @@ def export(
 ) -> None:
     """Write signs as the robot would make them, from rest to rest, for programs that play motions."""
     from teo_description.robot import Robot
-    from teo_motion.lone_sign import sign_motion
-    from teo_motion.planner import Planner
-    from teo_motion.sentence.rest_posture import RestPosture
-    from teo_signs.export import play_motion2_parameters, playback_mask, save_playback_tables
+    from teo_motion.planner import Planner, sign_motion
+    from teo_motion.sentence.signing_style import RestPosture
+    from teo_signs.export.play_motion2 import play_motion2_parameters
+    from teo_signs.export.playback_thread import playback_mask, save_playback_tables
     from teo_signs.look_up_table import Lut
 
     try:

@@ -1,12 +1,17 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""`ros2 run teo_lut_executor lut`: look into a table of signs."""
+"""`ros2 run teo_lut_executor lut`: look into a table of signs.
+
+Other packages bring more commands: what needs a camera's software is not on every robot.
+"""
 
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
+from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, NamedTuple
 
 import numpy as np
 import typer
@@ -15,8 +20,7 @@ from rich.table import Table
 
 from teo_description.humanoid import DEFAULT_ROBOT
 from teo_lut_executor.cli.export import export
-from teo_lut_executor.cli.listing import list_signs
-from teo_lut_executor.cli.nearest import nearest
+from teo_lut_executor.cli.listing import list_signs, nearest
 from teo_lut_executor.cli.options import (
     LanguageCode,
     RobotName,
@@ -25,13 +29,77 @@ from teo_lut_executor.cli.options import (
     open_table,
     signs_of_kind,
 )
-from teo_lut_executor.cli.plugins import add_plugins
 from teo_lut_executor.cli.review import review
 from teo_sign_languages import DEFAULT_LANGUAGE
-from teo_signs.look_up_table import Lut, LutError, Sign
-from teo_signs.sign import sign_warnings
+from teo_signs.errors import LutError
+from teo_signs.look_up_table import Lut
+from teo_signs.sign import Sign, sign_warnings
 from teo_signs.sign_file import format_sign
 from teo_signs.sign_schema import sign_json_schema
+
+# Entry points of this group are commands: name, and a function with typer's annotations. Its context's `obj`
+# are the directories of the table that is used without --lut, in the order in which a gloss is sought there.
+_GROUP = "teo_lut_executor.lut_commands"
+
+
+class _Known(NamedTuple):
+    """A command that belongs to `lut` for its users though another package has it."""
+
+    does: str
+    provider: str
+    requirements: str
+
+
+_CAPTURE = ("teo_sign_capture", "requirements/capture.txt")
+_AUTHORING = ("teo_sign_authoring", "requirements/authoring.txt")
+_KNOWN = {
+    "capture": _Known("A sign from recordings of a person.", *_CAPTURE),
+    "coverage": _Known("What of a text has signs.", "teo_sign_translator", "requirements/run.txt"),
+    "ease": _Known("Postures of words that are quicker to reach.", *_AUTHORING),
+    "import": _Known(
+        "Signs from a clip in which a person's points were found, or from SignWriting.", *_CAPTURE
+    ),
+    "recognise": _Known("Which signs of the table a demonstration may be.", *_CAPTURE),
+    "fit": _Known("How well signs fit a robot.", *_AUTHORING),
+    "retarget": _Known("A language's table for another robot.", *_AUTHORING),
+    "record": _Known("A sign from the person before the camera, now.", *_CAPTURE),
+}
+
+
+def _add_plugins(app: typer.Typer) -> None:
+    """Add the commands of other packages; one that should be there and is not says what to install."""
+    found = {point.name: point for point in entry_points(group=_GROUP)}
+    for name, point in sorted(found.items()):
+        try:
+            app.command(name)(point.load())
+        except ImportError as error:
+            _add_placeholder(app, name, _reason_not_loaded(point, error))
+    for name in _KNOWN.keys() - found.keys():
+        known = _KNOWN[name]
+        _add_placeholder(
+            app,
+            name,
+            f"lut {name}: expected the package {known.provider}, which is not installed; "
+            f"install {known.requirements} and build the package",
+        )
+
+
+def _reason_not_loaded(point: EntryPoint, error: ImportError) -> str:
+    provider = point.module.partition(".")[0]
+    install = f"; install {_KNOWN[point.name].requirements}" if point.name in _KNOWN else ""
+    return f"lut {point.name}: expected what {provider} needs, got: {error}{install}"
+
+
+def _add_placeholder(app: typer.Typer, name: str, reason: str) -> None:
+    def missing() -> None:
+        fail(LutError("not_installed", reason))
+
+    does = _KNOWN[name].does if name in _KNOWN else "A command of another package."
+    missing.__doc__ = f"{does} (not installed)"
+    anything = {"allow_extra_args": True, "ignore_unknown_options": True}
+    command: Callable[[], None] = missing
+    app.command(name, context_settings=anything)(command)
+
 
 app = typer.Typer(
     help="Look into a table of signs.",
@@ -43,7 +111,7 @@ app.command()(export)
 app.command("list")(list_signs)
 app.command()(nearest)
 app.command()(review)
-add_plugins(app)
+_add_plugins(app)
 
 _output = Console(highlight=False)
 

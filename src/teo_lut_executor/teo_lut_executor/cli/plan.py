@@ -23,9 +23,8 @@ from teo_description.humanoid import DEFAULT_ROBOT, Humanoid
 from teo_description.robot import Robot
 from teo_lut_executor.cli.options import LanguageCode, RobotName
 from teo_motion.planner import Planner
-from teo_motion.sentence.plan import Plan, sample_at
+from teo_motion.sentence.plan import Plan, peak_torques, sample_at
 from teo_motion.sentence.sentence_form import SentenceType, printed_form, without_marks
-from teo_motion.torque import peak_torques
 from teo_motion.trajectory.limits import DEFAULT_ACCELERATION, DEFAULT_JERK, MotionLimits
 from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import LutError, PlanError
@@ -55,10 +54,10 @@ class _Type(enum.Enum):
 _out = Console()
 _err = Console(stderr=True)
 # No markup in the help: it would swallow units in brackets.
-_app = typer.Typer(add_completion=False, rich_markup_mode=None)
+app = typer.Typer(add_completion=False, rich_markup_mode=None)
 
 
-@_app.command()
+@app.command()
 def _plan(
     sentence: Annotated[
         str,
@@ -215,7 +214,7 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):
         # Whatever the locale says, glosses go out as UTF-8.
         stream.reconfigure(encoding="utf-8", errors="backslashreplace")  # type: ignore[union-attr]
-    _app()
+    app()
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Without ROS: which sentence is signed when, whether the robot follows, and who is told."""
 
-from teo_lut_executor.execution.events import (
+from teo_lut_executor.execution.interface import (
     Activity,
     Effect,
     Finished,

@@ -1,20 +1,96 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""How a robot that follows its motion is stopped: the motion goes on to a point a little ahead, and ends."""
+"""How a robot in motion is brought to a standstill.
+
+One that follows its motion is sent a continuation to a point a little ahead, where it ends. Any other is
+told to stop from where joint states show it, several times if need be.
+"""
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 
-from teo_lut_executor.execution.path_monitor import PathMonitor
-from teo_lut_executor.execution.seam import LEAST_AHEAD, continued, last_seam
+from teo_lut_executor.execution.interface import StopReady
+from teo_lut_executor.execution.sent_motion import LEAST_AHEAD, SentMotion
+from teo_lut_executor.execution.situation import Situation
 from teo_motion.sentence.plan import Plan, Samples
 from teo_motion.trajectory.driver_points import driver_points, point_times
 from teo_motion.trajectory.joint_motion import JointMotion, JointMotionBuilder, Pieces, take
 from teo_motion.trajectory.limits import MotionLimits
-from teo_motion.trajectory.ruckig_segment import RuckigSolver
+from teo_motion.trajectory.ruckig_segment import RuckigSolver, State
+from teo_motion.trajectory.stopping import stop
+
+# How often a stop is sent to a robot that goes on moving: a driver may refuse one when a joint is about to
+# reach a limit, and take the next.
+_MOST_STOPS = 5
+
+# Time after the end of a stop at which the next is sent [s].
+_STOP_PATIENCE = 0.1
+
+# The robot stands when joint states have shown no movement for this long [s]: ten of them.
+_STANDS = 0.1
+
+
+class Halt:
+    """Brings a robot in motion to a standstill, with several stops if one is not taken."""
+
+    def __init__(self, situation: Situation) -> None:
+        """Begin with nothing to stop."""
+        self._situation = situation
+        self._stops = 0
+        self._due = -math.inf
+        self._owed = False
+        self._number = 0  # of the stop that was sent last
+
+    def begin(self) -> None:
+        """Expect the robot to stand from now on."""
+        self._stops, self._due, self._owed = 0, self._situation.now, False
+
+    def owe(self, number: int | None = None) -> None:
+        """Stop the robot when it can be told, though it may seem to stand: it has a motion to go on with.
+
+        Args:
+            number: Of a stop that the driver did not take; of others' numbers nothing is owed. None: it could
+                not be told.
+        """
+        if number is None or number == self._number:
+            self._owed = self._stops < _MOST_STOPS
+
+    def shift_clock(self, by: float) -> None:
+        """Follow a clock that was set by so much [s]."""
+        self._due += by
+
+    def stop(self, moving: State, number: int) -> list[StopReady]:
+        """Stop a robot in this state, if it moves; the motion gets a number."""
+        situation = self._situation
+        still = situation.robot.is_still and not self._owed
+        if still or not situation.may_be_told or self._stops >= _MOST_STOPS:
+            return []
+        self._stops += 1
+        self._owed, self._number = False, number
+        end, lead = stop(moving, situation.limits)
+        self._due = situation.now + lead
+        return [StopReady(number=number, end=end, lead=lead)]
+
+    def expect(self, number: int, duration: float) -> None:
+        """Expect the robot to stand in so much time [s], as it was sent a way to that has this number."""
+        self._number, self._due = number, self._situation.now + duration
+
+    @property
+    def stands(self) -> bool:
+        """Whether the robot has come to a standstill."""
+        situation = self._situation
+        still = situation.robot.still_for(situation.now) >= _STANDS and not situation.is_stale
+        return still and situation.now >= self._due and not self._owed
+
+    @property
+    def is_overdue(self) -> bool:
+        """Whether the robot should stand, and is to be told again."""
+        return self._owed or self._situation.now > self._due + _STOP_PATIENCE
+
 
 # Points of a motion before the seam that depend on nothing before the motion: see `continued`.
 _POINTS_BEFORE_SEAM = 2
@@ -31,7 +107,7 @@ class Brake(NamedTuple):
     """Path time from now until the robot is to be at the first sample [s]."""
 
 
-def brake(motion: PathMonitor, following: PathMonitor | None, limits: MotionLimits) -> Brake | None:
+def brake(motion: SentMotion, following: SentMotion | None, limits: MotionLimits) -> Brake | None:
     """The way to a standstill of a robot that follows what it was sent.
 
     Each joint comes to a stand as soon as it can. It leaves its path, but goes no farther than the path,
@@ -45,16 +121,16 @@ def brake(motion: PathMonitor, following: PathMonitor | None, limits: MotionLimi
     Returns:
         None if the motion comes to its end before it could be changed.
     """
-    period = float(motion.motion.times[1])
+    period = float(motion.plan.times[1])
     ready = LEAST_AHEAD + period
     earliest = motion.elapsed + ready
     if following is not None:
-        left = min(-following.elapsed, motion.motion.duration - motion.elapsed)
+        left = min(-following.elapsed, motion.plan.duration - motion.elapsed)
         if left <= ready + period:  # the motion in force is over before the robot could be told
             motion = following
             earliest = max(motion.elapsed + ready, _POINTS_BEFORE_SEAM * period)
-    seam = last_seam(motion.motion, earliest + period)
-    if seam >= motion.motion.duration:
+    seam = motion.last_seam(earliest + period)
+    if seam >= motion.plan.duration:
         return None
     start = motion.state_at(seam)
     pieces = RuckigSolver(len(limits.names)).brake(start, limits.bounds)
@@ -70,7 +146,7 @@ def brake(motion: PathMonitor, following: PathMonitor | None, limits: MotionLimi
         timings=(),
         stretch=1.0,
     )
-    samples = continued(motion.motion, seam, plan)
+    samples = motion.continued(seam, plan)
     return Brake(plan, samples, seam - float(samples.times[1]) - motion.elapsed)
 
 

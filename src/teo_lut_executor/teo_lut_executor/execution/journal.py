@@ -15,7 +15,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from teo_lut_executor.execution.events import Sentence
+from teo_lut_executor.execution.interface import Sentence
 from teo_motion.sentence.sentence_form import SentenceForm, SentenceType
 from teo_signs.tokens import Kind, Token
 
@@ -55,30 +55,42 @@ class Kept(NamedTuple):
 class Journal:
     """Writes down what becomes of sentences."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path | None) -> None:
         """Open the journal of one executor, and read what the one before it left.
 
         Args:
             path: The file; it is made with its folder if it is not there. It stays as it is until `begin`:
-                what was left is still there if this executor is killed before it has taken it over.
+                what was left is still there if this executor is killed before it has taken it over. None
+                keeps nothing.
 
         Raises:
             OSError: It cannot be read or written, or another executor uses it (`BlockingIOError`).
         """
+        self.left: tuple[Kept, ...] = ()
+        self._path = path
+        self._messages: dict[MessageKey, None] = {}
+        if path is None:
+            return
         path.parent.mkdir(parents=True, exist_ok=True)
         self._lock = path.with_suffix(".lock").open("w")
         fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         before = _Contents(path)
         self.left = tuple(before.kept.values())
         self._messages = before.messages
-        self._path, self._new = path, path.with_suffix(".new")
+        self._new = path.with_suffix(".new")
         self._file = self._new.open("w", encoding="utf-8", buffering=1)  # a line at a time
         for message in self._messages:
             self._write({"message": message})
 
+    @property
+    def kept(self) -> bool:
+        """Whether there is a journal."""
+        return self._path is not None
+
     def begin(self) -> None:
         """Take the place of the journal before, now that all it left was accepted anew or ended."""
-        self._new.replace(self._path)
+        if self._path is not None:
+            self._new.replace(self._path)
 
     def knows(self, message: MessageKey) -> bool:
         """Whether a message was accepted or refused before, perhaps by an executor before this one."""
@@ -123,11 +135,13 @@ class Journal:
 
     def close(self) -> None:
         """Write no more."""
-        self._file.close()
-        self._lock.close()
+        if self._path is not None:
+            self._file.close()
+            self._lock.close()
 
     def _write(self, entry: dict[str, Any]) -> None:
-        self._file.write(json.dumps(entry, ensure_ascii=False) + "\n")
+        if self._path is not None:
+            self._file.write(json.dumps(entry, ensure_ascii=False) + "\n")
 
 
 class _Contents:

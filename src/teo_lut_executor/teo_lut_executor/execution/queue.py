@@ -12,9 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from teo_lut_executor.execution import noticing
-from teo_lut_executor.execution.announcements import finished, named, news, refused
-from teo_lut_executor.execution.events import (
+from teo_lut_executor.execution.interface import (
     DriverReport,
     Effect,
     Outcome,
@@ -23,9 +21,17 @@ from teo_lut_executor.execution.events import (
     QueueSettings,
     Sentence,
 )
-from teo_lut_executor.execution.states import Event, State
-from teo_lut_executor.execution.table import happen
-from teo_lut_executor.execution.work import Job, PlanAnswer, Work
+from teo_lut_executor.execution.table import (
+    NOTICES,
+    Event,
+    Notice,
+    cancellation_event,
+    failure_event,
+    happen,
+    notice_block,
+    notice_pause,
+)
+from teo_lut_executor.execution.work import Job, PlanAnswer, State, Work, finished, named, news, refused
 from teo_motion.sentence.plan import Plan
 from teo_motion.trajectory.limits import MotionLimits
 from teo_signs.errors import PlanError
@@ -137,7 +143,7 @@ class ExecutionQueue:
         self._work.tick(now)
         self._work.situation.obstacle = obstacle
         effects: list[Effect] = []
-        for notice in noticing.STEP:
+        for notice in NOTICES:
             effects += self._react(notice(self._work))
         return effects + news(self._work)
 
@@ -161,7 +167,7 @@ class ExecutionQueue:
             since = max(now - report.stamp, 0.0)  # the message's way here
             for motion in self._work.sent:
                 motion.synchronise(report.remaining - since * report.speed_scaling)
-        effects = self._react(noticing.block(self._work)) + self._react(noticing.pause(self._work))
+        effects = self._react(notice_block(self._work)) + self._react(notice_pause(self._work))
         return effects + news(self._work)
 
     def driver_refused(self, number: int, reason: str, now: float) -> list[Effect]:
@@ -176,7 +182,7 @@ class ExecutionQueue:
         work.tick(now)
         error = PlanError("trajectory_refused", f"the driver did not take the motion: {reason}")
         if work.motion is not None and work.motion.number == number:
-            return self._react(noticing.failure(work, Event.MOTION_REFUSED, error))
+            return self._react(failure_event(work, Event.MOTION_REFUSED, error))
         if work.continuation is None or work.continuation.number != number:
             return happen(work, Event.STOP_REFUSED, number)
         if self.state is State.OPENING and work.current is not None and not work.current.joins:
@@ -224,7 +230,7 @@ class ExecutionQueue:
         event = Event.NOT_PLANNED_HERE if here else Event.NOT_PLANNED
         return happen(work, event, error) + news(work)
 
-    def _react(self, notice: noticing.Notice) -> list[Effect]:
+    def _react(self, notice: Notice) -> list[Effect]:
         return [] if notice is None else happen(self._work, *notice)
 
     def _is_next(self, number: int) -> bool:
@@ -232,7 +238,7 @@ class ExecutionQueue:
         return self._work.join is not None and number == self._work.join.number
 
     def _cancel_current(self, why: str) -> list[Effect]:
-        return happen(self._work, noticing.cancellation(self._work), why)
+        return happen(self._work, cancellation_event(self._work), why)
 
     def _forget(self, job: Job, why: str) -> list[Effect]:
         """End a sentence that waits; one that was sent already ends as soon as it has begun."""

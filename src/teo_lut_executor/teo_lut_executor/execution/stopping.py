@@ -6,12 +6,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from teo_lut_executor.execution.announcements import completed, finished, named, refused
 from teo_lut_executor.execution.braking import brake
-from teo_lut_executor.execution.events import Activity, DriverMode, Effect, Outcome, TrajectoryReady
-from teo_lut_executor.execution.joining import begin_next, unsend_next
-from teo_lut_executor.execution.states import State
-from teo_lut_executor.execution.work import Work
+from teo_lut_executor.execution.interface import Activity, DriverMode, Effect, Outcome, TrajectoryReady
+from teo_lut_executor.execution.signing import begin_next, unsend_next
+from teo_lut_executor.execution.work import State, Work, completed, finished, named, refused
 from teo_signs.errors import PlanError
 
 

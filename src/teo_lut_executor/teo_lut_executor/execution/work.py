@@ -1,20 +1,49 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Everything that the queue remembers: the state it is in, its sentences, and the motions that were sent."""
+"""Everything that the queue remembers, and what it tells of it.
+
+It remembers the state it is in, its sentences, and the motions that were sent. It tells how sentences end,
+which are refused and why, how far the current one is, and what is going on.
+"""
 
 from __future__ import annotations
 
+import enum
 import itertools
 from collections import deque
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from teo_lut_executor.execution.events import Progress, QueueSettings, Sentence, TrajectoryReady
-from teo_lut_executor.execution.halt import Halt
-from teo_lut_executor.execution.path_monitor import PathMonitor
+from teo_lut_executor.execution.braking import Halt
+from teo_lut_executor.execution.interface import (
+    Activity,
+    DriverMode,
+    Effect,
+    Finished,
+    Outcome,
+    Progress,
+    QueueSettings,
+    Sentence,
+    Status,
+    TrajectoryReady,
+)
+from teo_lut_executor.execution.sent_motion import SentMotion
 from teo_lut_executor.execution.situation import Situation
-from teo_lut_executor.execution.states import State
 from teo_motion.sentence.plan import Plan, Samples
 from teo_motion.trajectory.limits import MotionLimits
+from teo_signs.errors import PlanError
+
+
+class State(enum.Enum):
+    """What the robot does, as far as the executor has a hand in it; the value says it to people."""
+
+    STANDING = "no motion is in force"
+    PLANNING = "the robot stands, a sentence is being planned"
+    PLANNING_REST = "the robot stands, its way to rest is being planned"
+    OPENING = "the robot moves towards the first sign, the sentence is not in force yet"
+    SIGNING = "the plan of a sentence is in force"
+    STOPPING = "the robot was told to stop, and does not stand yet"
+    RETURNING = "the robot moves to rest"
+
 
 # Time that planning a sentence is given at first when it is to continue a motion [s]: three times the median
 # on two loaded cores. Where it was too little, the next try gets twice as much.
@@ -77,7 +106,7 @@ class PlanAnswer:
 
 
 class Work:
-    """What the queue remembers; the functions of `actions` change it.
+    """What the queue remembers; the actions of the table change it.
 
     Attributes:
         situation: What is known of the robot and its driver.
@@ -104,8 +133,8 @@ class Work:
         self.halt = Halt(self.situation)
         self.state = State.STANDING
         self.current: Job | None = None
-        self.motion: PathMonitor | None = None
-        self.continuation: PathMonitor | None = None
+        self.motion: SentMotion | None = None
+        self.continuation: SentMotion | None = None
         self.join: Join | None = None
         self.asked = 0
         self.early: PlanAnswer | None = None
@@ -119,7 +148,7 @@ class Work:
         return self.waiting[0] if self.waiting and self.waiting[0].again else None
 
     @property
-    def sent(self) -> tuple[PathMonitor, ...]:
+    def sent(self) -> tuple[SentMotion, ...]:
         """The motion in force and its continuation, as far as there are any."""
         return tuple(motion for motion in (self.motion, self.continuation) if motion is not None)
 
@@ -142,17 +171,17 @@ class Work:
             elapsed: Path time since the plan's beginning [s]; negative before it.
         """
         number, situation = next(self.numbers), self.situation
-        monitor = PathMonitor(
+        sent = SentMotion(
             number=number,
-            motion=plan,
+            plan=plan,
             elapsed=elapsed,
             settings=situation.settings,
             awaited=start is None and situation.driver is not None,
         )
         if self.motion is None:
-            self.motion = monitor
+            self.motion = sent
         else:
-            self.continuation = monitor
+            self.continuation = sent
         return TrajectoryReady(number=number, plan=plan, samples=samples, start=start)
 
     def progress(self) -> Progress | None:
@@ -160,10 +189,10 @@ class Work:
         current = self.current
         if self.state not in (State.OPENING, State.SIGNING) or current is None or current.canceled:
             return None
-        motion = next((motion for motion in self.sent if motion.motion is current.plan), None)
+        motion = next((motion for motion in self.sent if motion.plan is current.plan), None)
         if motion is None:  # there is no plan yet, or it waits for the end of its opening
             return None
-        plan, elapsed = motion.motion, motion.elapsed
+        plan, elapsed = motion.plan, motion.elapsed
         signed = plan.token_at(elapsed)
         following = next((i for i, timing in enumerate(plan.timings) if timing.start > elapsed), None)
         return Progress(
@@ -173,3 +202,82 @@ class Work:
             fraction=min(max(elapsed / plan.duration, 0.0), 1.0),
             stretch=plan.stretch,
         )
+
+
+def finished(job: Job, outcome: Outcome, *, message: str = "") -> list[Effect]:
+    """Say that a sentence has ended."""
+    timings = () if job.plan is None else job.plan.timings
+    return [Finished(ticket=job.ticket, outcome=outcome, message=message, timings=timings)]
+
+
+def completed(job: Job) -> list[Effect]:
+    """Say that a sentence has ended where it was to end: at its last sign, or early if it was canceled."""
+    outcome = Outcome.CANCELED if job.canceled else Outcome.SUCCESS
+    return finished(job, outcome, message=job.canceled)
+
+
+def refused(work: Work, job: Job, outcome: Outcome, error: PlanError) -> list[Effect]:
+    """Say that a sentence has ended, and what is wrong."""
+    ended = finished(job, outcome, message=f"{error.code}: {error}")
+    return [*ended, *named(work, job.sentence, error)]
+
+
+def named(
+    work: Work, sentence: Sentence | None, error: PlanError, activity: Activity = Activity.REFUSED
+) -> list[Effect]:
+    """Say what is wrong, and with which sentence; the present status is told again after it."""
+    work.told = ()
+    return [
+        Status(
+            activity=activity,
+            stamp=work.situation.now,
+            sentence=sentence,
+            queued=len(work.waiting),
+            code=error.code,
+            message=str(error),
+        )
+    ]
+
+
+def news(work: Work) -> list[Effect]:
+    """The present status, if it is not what was told last."""
+    status = _status(work)
+    told = (status.activity, status.code, status.message, status.sentence, status.queued, status.plan)
+    if told == work.told:
+        return []
+    work.told = told
+    return [status]
+
+
+def _status(work: Work) -> Status:
+    """What is going on, from the driver's word, the joint states and the motion in force."""
+    situation, current, queued = work.situation, work.current, len(work.waiting)
+    status = Status(activity=Activity.WAITING, stamp=situation.now, queued=queued)
+    if current is not None:
+        status = replace(status, sentence=current.sentence)
+    elif work.waiting:
+        status = replace(status, sentence=work.waiting[0].sentence, queued=queued - 1)
+    if situation.block is not None:
+        code, meaning = situation.block
+        activity = Activity.STOPPED if situation.mode is DriverMode.STOPPED else Activity.FAULT
+        return replace(status, activity=activity, code=code, message=meaning)
+    if situation.is_stale:
+        silent = situation.settings.joint_state_timeout
+        stale = f"no joint_states for {silent:g} s: see that the driver runs"
+        return replace(status, activity=Activity.FAULT, code="stale_joint_states", message=stale)
+    if situation.mode is DriverMode.PAUSED:
+        return replace(status, activity=Activity.PAUSED, message="paused: it goes on at `resume`")
+    signs = work.state in (State.OPENING, State.SIGNING)
+    if signs and current is not None and current.plan is not None:
+        plan = current.plan
+        message = f"signing for {plan.duration:.1f} s"
+        return replace(status, activity=Activity.SIGNING, plan=plan, message=message)
+    if work.state in (State.STOPPING, State.RETURNING) or (work.astray and current is None):
+        return replace(status, message=situation.hindrance or "going to rest")
+    if work.state is not State.STANDING:
+        return replace(status, message="planning")
+    hindrance = situation.hindrance or ("planning" if work.waiting else "")
+    if hindrance:
+        return replace(status, message=hindrance)
+    message = f"{'at rest' if situation.at_rest else 'standing still'}, nothing queued"
+    return replace(status, activity=Activity.IDLE, message=message)

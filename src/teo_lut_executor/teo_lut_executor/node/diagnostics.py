@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from teo_common.diagnostics import Diagnosis, Level
-from teo_lut_executor.execution.events import Activity, Outcome, Status
+from teo_lut_executor.execution.interface import Activity, Outcome, Status
 
 # Latest plans whose times are kept; enough for a 99th percentile.
 _KEPT = 1000

@@ -14,7 +14,7 @@ from rclpy.task import Future
 from teo_sign_msgs.msg import DriverState
 from trajectory_msgs.msg import JointTrajectory
 
-from teo_lut_executor.execution.events import DriverReport
+from teo_lut_executor.execution.interface import DriverReport
 from teo_lut_executor.node.messages import to_report
 from teo_lut_executor.node.parameters import ACTION
 

@@ -18,7 +18,7 @@ from teo_sign_msgs.msg import ExecutorStatus
 from teo_common.diagnostics import DIAGNOSTICS_PERIOD, DiagnosticsPublisher
 from teo_common.node_process import SelfStartingNode, run_self_starting
 from teo_description.errors import DescriptionError
-from teo_lut_executor.execution.events import (
+from teo_lut_executor.execution.interface import (
     Activity,
     Begun,
     DriverReport,
@@ -36,12 +36,10 @@ from teo_lut_executor.node.diagnostics import Statistics, diagnose
 from teo_lut_executor.node.driver_link import DriverLink
 from teo_lut_executor.node.messages import to_status, to_stop, to_trajectory
 from teo_lut_executor.node.parameters import PARAMETERS, planner_settings_from, queue_settings_from
-from teo_lut_executor.node.queue_services import QueueServices
-from teo_lut_executor.node.sentence_intake import SentenceIntake
-from teo_lut_executor.node.sentence_journal import SentenceJournal
-from teo_lut_executor.node.sign_services import SignServices
-from teo_lut_executor.planning.planning_process import PlanningProcess
-from teo_lut_executor.planning.worker import NotPlanned, Opened, Planned
+from teo_lut_executor.node.sentence_intake import SentenceIntake, open_journal
+from teo_lut_executor.node.services import Services
+from teo_lut_executor.planning_process import PlanningProcess
+from teo_lut_executor.planning_worker import NotPlanned, Opened, Planned
 from teo_motion.planner import Planner
 from teo_signs.errors import LutError, PlanError
 
@@ -84,7 +82,7 @@ class ExecutorNode(SelfStartingNode):
             return TransitionCallbackReturn.FAILURE
         self._queue = ExecutionQueue(self._checker.limits, queue_settings)
         self._statistics = Statistics()
-        self._journal = SentenceJournal(self, folder=self._value("journal"))
+        self._journal = open_journal(self, self._value("journal"))
         answered = self.create_guard_condition(self._on_answers)
         self._planning = PlanningProcess(settings, answered.trigger)
         self._communicate()
@@ -142,8 +140,7 @@ class ExecutorNode(SelfStartingNode):
             self.create_timer(1.0 / _FEEDBACK_RATE, self._give_feedback),
             self.create_timer(DIAGNOSTICS_PERIOD, self._publish_diagnostics),
         ]
-        self._signs = SignServices(self, self._lut)
-        self._queueing = QueueServices(self, self._queue, now=self._now, carry_out=self._carry_out)
+        self._offered = Services(self, self._lut, self._queue, now=self._now, carry_out=self._carry_out)
         self._intake = SentenceIntake(
             self,
             self._queue,
@@ -164,8 +161,7 @@ class ExecutorNode(SelfStartingNode):
         self._planning.close()
         self._intake.close()
         self._driver.close()
-        self._signs.close()
-        self._queueing.close()
+        self._offered.close()
         for entity in self._entities:
             for destroy in (
                 self.destroy_publisher,
@@ -189,7 +185,7 @@ class ExecutorNode(SelfStartingNode):
                 f"expected a sentence of {language.names.short} ({language.code}), the language in use, got "
                 f"one of {sentence.language!r}; give executor and translator the same parameter language",
             )
-        self._signs.refresh()
+        self._offered.refresh()
         self._checker.check(sentence.tokens, form=sentence.form)
 
     def _take(self, events: Sequence[Effect]) -> None:
@@ -302,7 +298,7 @@ class ExecutorNode(SelfStartingNode):
             return
         settings = planner_settings_from(self._values())
         if "language" in {item.name for item in parameters}:
-            self._lut = self._signs.lut = self._next_lut
+            self._lut = self._offered.lut = self._next_lut
             self.get_logger().info(f"{len(self._lut)} signs of {self._lut.place}")
         self._checker = settings.planner(self._lut, None, self._lut.language)
         self._planning.configure(settings)

@@ -14,7 +14,7 @@ from teo_sign_msgs.msg import TokenTiming as TokenTimingMessage
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from teo_common.arrays import Array
-from teo_lut_executor.execution.events import DriverMode, DriverReport, Sentence, Status
+from teo_lut_executor.execution.interface import DriverMode, DriverReport, Sentence, Status
 from teo_motion.sentence.plan import Samples, TokenTiming
 from teo_motion.sentence.sentence_form import SentenceForm, SentenceType
 from teo_motion.trajectory.ruckig_segment import State
@@ -52,7 +52,7 @@ def to_trajectory(names: Sequence[str], samples: Samples, *, start: float | None
     """
     message = JointTrajectory(joint_names=list(names))
     if start is not None:
-        message.header.stamp = to_time(start)
+        message.header.stamp = _to_time(start)
     message.points = [
         _point(position, velocity, acceleration, time)
         for time, position, velocity, acceleration in zip(
@@ -106,7 +106,7 @@ def to_status(status: Status) -> ExecutorStatus:
     message = ExecutorStatus(
         state=int(status.activity), queued=status.queued, code=status.code, message=status.message
     )
-    message.header.stamp = to_time(status.stamp)
+    message.header.stamp = _to_time(status.stamp)
     if status.sentence is not None:
         message.utterance_id = status.sentence.utterance_id
         message.sentence_index = status.sentence.index
@@ -141,7 +141,7 @@ def sign_trajectory(sign: Sign) -> JointTrajectory:
     return message
 
 
-def to_time(seconds: float) -> Time:
+def _to_time(seconds: float) -> Time:
     """A time of the node's clock [s] as a stamp."""
     whole, nanoseconds = divmod(round(seconds * _NANO), _NANO)
     return Time(sec=whole, nanosec=nanoseconds)

@@ -4,16 +4,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import fields
 from pathlib import Path
+from typing import cast
 
 from teo_common.parameters import AUTOSTART, ROBOT, ParameterRow
-from teo_lut_executor.execution.events import Preemption, QueueSettings
-from teo_lut_executor.planning.settings import PlannerSettings
+from teo_lut_executor.execution.interface import Preemption, QueueSettings
+from teo_lut_executor.planning_worker import PlannerSettings
 from teo_motion.planner import DEFAULT_CLEARANCE, DEFAULT_MAX_DURATION, DEFAULT_PERIOD
-from teo_motion.sentence.rest_posture import DEFAULT_REST, RestPosture
-from teo_motion.sentence.rhythm import SigningStyle
+from teo_motion.sentence.signing_style import DEFAULT_REST, RestPosture, SigningStyle
 from teo_motion.trajectory.limits import DEFAULT_ACCELERATION, DEFAULT_JERK
 from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import PlanError
@@ -189,43 +189,16 @@ PARAMETERS = (
 )
 
 
-def standing_from(values: Mapping[str, Value]) -> Standing:
-    """Lowest standing of a sign.
+def _one_of(values: Mapping[str, Value], name: str, choices: Iterable[str], *, code: str) -> str:
+    """The word of a choice.
 
     Raises:
-        PlanError: It is none ("bad_standing").
+        PlanError: It is none of them (the code).
     """
-    for standing in STANDINGS:
-        if values["least_standing"] == standing:
-            return standing
-    got = values["least_standing"]
-    raise PlanError("bad_standing", f"least_standing: expected one of {', '.join(STANDINGS)}, got {got!r}")
-
-
-def left_handed_from(values: Mapping[str, Value]) -> bool:
-    """Whether signs are mirrored for a left-handed signer.
-
-    Raises:
-        PlanError: The dominant hand is neither ("bad_hand").
-    """
-    hand = values["dominant_hand"]
-    if hand not in ("right", "left"):
-        raise PlanError("bad_hand", f"dominant_hand: expected right or left, got {hand!r}")
-    return hand == "left"
-
-
-def rest_posture_from(values: Mapping[str, Value]) -> RestPosture:
-    """Where the robot waits.
-
-    Raises:
-        PlanError: There is no such posture ("bad_rest").
-    """
-    posture = values["rest_posture"]
-    if posture not in tuple(RestPosture):
-        raise PlanError(
-            "bad_rest", f"rest_posture: expected one of {', '.join(RestPosture)}, got {posture!r}"
-        )
-    return RestPosture(str(posture))
+    value, words = values[name], list(choices)
+    if value not in words:
+        raise PlanError(code, f"{name}: expected one of {', '.join(words)}, got {value!r}")
+    return str(value)
 
 
 def planner_settings_from(values: Mapping[str, Value]) -> PlannerSettings:
@@ -235,12 +208,15 @@ def planner_settings_from(values: Mapping[str, Value]) -> PlannerSettings:
         PlanError: A value is none that there is ("bad_standing", "bad_hand", "bad_rest", "bad_style").
     """
     directory = str(values["lut_directory"])
+    hand = _one_of(values, "dominant_hand", ("right", "left"), code="bad_hand")
+    standing = _one_of(values, "least_standing", STANDINGS, code="bad_standing")
+    rest = _one_of(values, "rest_posture", RestPosture, code="bad_rest")
     return PlannerSettings(
         robot=str(values["robot"]),
         language=str(values["language"]),
         lut_directory=Path(directory) if directory else None,
-        left_handed=left_handed_from(values),
-        least_standing=standing_from(values),
+        left_handed=hand == "left",
+        least_standing=cast(Standing, standing),
         style=SigningStyle(**{field.name: float(values[field.name]) for field in fields(SigningStyle)}),
         acceleration=float(values["acceleration"]),
         jerk=float(values["jerk"]),
@@ -248,7 +224,7 @@ def planner_settings_from(values: Mapping[str, Value]) -> PlannerSettings:
         least_clearance=float(values["least_clearance"]),
         period=float(values["period"]),
         max_duration=float(values["max_duration"]),
-        rest_posture=rest_posture_from(values),
+        rest_posture=RestPosture(rest),
     )
 
 
@@ -258,15 +234,12 @@ def queue_settings_from(values: Mapping[str, Value]) -> QueueSettings:
     Raises:
         PlanError: There is no such policy ("bad_policy").
     """
-    policy = values["preempt_policy"]
-    if policy not in tuple(Preemption):
-        message = f"preempt_policy: expected one of {', '.join(Preemption)}, got {policy!r}"
-        raise PlanError("bad_policy", message)
+    policy = _one_of(values, "preempt_policy", Preemption, code="bad_policy")
     apart = ("capacity", "attempts", "preemption")
     names = [field.name for field in fields(QueueSettings) if field.name not in apart]
     return QueueSettings(
         capacity=int(values["capacity"]),
         attempts=int(values["attempts"]),
-        preemption=Preemption(str(policy)),
+        preemption=Preemption(policy),
         **{name: float(values[name]) for name in names},
     )

@@ -4,24 +4,148 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import TypedDict
 
+from rclpy.action import ActionServer, CancelResponse, GoalResponse
 from rclpy.action.server import ServerGoalHandle
 from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from teo_sign_msgs.action import ExecuteSentence
 from teo_sign_msgs.msg import SignSentence
 
-from teo_lut_executor.execution.events import Effect, Finished, Progress, Sentence
-from teo_lut_executor.execution.journal import MessageKey
+from teo_lut_executor.execution.interface import Effect, Finished, Outcome, Progress, Sentence
+from teo_lut_executor.execution.journal import Journal, MessageKey
 from teo_lut_executor.execution.queue import ExecutionQueue
-from teo_lut_executor.node.messages import to_sentence
-from teo_lut_executor.node.sentence_goals import SentenceGoals
-from teo_lut_executor.node.sentence_journal import SentenceJournal, expired
+from teo_lut_executor.node.messages import to_sentence, to_timings
 from teo_signs.errors import PlanError
+
+
+class _Goals:
+    """Takes goals, and tells clients how their sentences are doing."""
+
+    def __init__(
+        self,
+        node: Node,
+        *,
+        accepts: Callable[[Sentence], bool],
+        take: Callable[[Sentence, ServerGoalHandle], None],
+        cancel: Callable[[int], None],
+    ) -> None:
+        """Serve the action.
+
+        Args:
+            node: Serves it.
+            accepts: Whether a sentence may be signed, as far as that is known when it comes.
+            take: Queues the sentence of a goal, and adds the goal.
+            cancel: Ends the sentence of a ticket early.
+        """
+        self._accepts, self._take, self._cancel = accepts, take, cancel
+        self._goals: dict[int, ServerGoalHandle] = {}
+        self._server = ActionServer(
+            node,
+            ExecuteSentence,
+            "execute_sentence",
+            execute_callback=_never_called,
+            goal_callback=self._on_request,
+            handle_accepted_callback=lambda goal: self._take(to_sentence(goal.request.sentence), goal),
+            cancel_callback=self._on_cancel,
+        )
+
+    def forget(self) -> None:
+        """Tell clients nothing any more."""
+        self._goals.clear()
+
+    def close(self) -> None:
+        """Serve no more."""
+        self._server.destroy()
+
+    def add(self, ticket: int, goal: ServerGoalHandle) -> None:
+        """Remember a goal until its sentence has ended."""
+        self._goals[ticket] = goal
+
+    def give_feedback(self, progress: Progress) -> None:
+        """Tell the client, if the sentence came from one."""
+        goal = self._goals.get(progress.ticket)
+        if goal is not None:
+            goal.publish_feedback(
+                ExecuteSentence.Feedback(
+                    token=progress.token,
+                    gloss=progress.gloss,
+                    progress=progress.fraction,
+                    stretch=progress.stretch,
+                )
+            )
+
+    def finish(self, finished: Finished) -> None:
+        """Tell the client, if the sentence came from one."""
+        goal = self._goals.pop(finished.ticket, None)
+        if goal is None:
+            return
+        result = ExecuteSentence.Result(
+            code=int(finished.outcome),
+            message=finished.message,
+            sentence=goal.request.sentence,
+            timings=to_timings(finished.timings),
+        )
+
+        def end(goal: ServerGoalHandle) -> ExecuteSentence.Result:
+            if finished.outcome == Outcome.SUCCESS:
+                goal.succeed()
+            elif finished.outcome == Outcome.CANCELED and goal.is_cancel_requested:
+                goal.canceled()
+            else:
+                goal.abort()
+            return result
+
+        # The goal is executed when its result is known: a callback that waits for it would keep rclpy's
+        # executor busy all the while, and one thread for each goal that waits is no better.
+        goal.execute(end)
+
+    def _on_request(self, goal: ExecuteSentence.Goal) -> GoalResponse:
+        return GoalResponse.ACCEPT if self._accepts(to_sentence(goal.sentence)) else GoalResponse.REJECT
+
+    def _on_cancel(self, goal: ServerGoalHandle) -> CancelResponse:
+        ticket = next((ticket for ticket, other in self._goals.items() if other is goal), None)
+        if ticket is None:
+            return CancelResponse.REJECT  # it has just ended
+        self._cancel(ticket)
+        return CancelResponse.ACCEPT
+
+
+def _never_called(goal: ServerGoalHandle) -> ExecuteSentence.Result:
+    """The callback that rclpy asks for; see `_Goals.finish` for the one that it gets."""
+    goal.abort()
+    return ExecuteSentence.Result(code=ExecuteSentence.Result.REFUSED)
+
+
+def open_journal(node: Node, folder: str) -> Journal:
+    """The journal of an executor; one that keeps nothing where it cannot be kept.
+
+    Args:
+        node: Whose it is; its full name and DDS domain name the file.
+        folder: Where it is kept; empty for none.
+    """
+    if not folder:
+        return Journal(None)
+    name = node.get_fully_qualified_name().strip("/").replace("/", ".")
+    file = f"domain{os.environ.get('ROS_DOMAIN_ID', '0')}.{name}.jsonl"
+    try:
+        return Journal(Path(folder).expanduser() / file)
+    except OSError as error:
+        node.get_logger().warning(f"no journal is kept, a killed executor forgets sentences: {error}")
+        return Journal(None)
+
+
+def _expired(waited: float) -> PlanError:
+    """Why a sentence is not signed that has waited for so long [s]."""
+    return PlanError("expired", f"it waited for {waited:.0f} s: send it again")
+
 
 # Sentences that DDS keeps while a callback runs: far more than arrive in that time, so that it is our own
 # queue that is full first, and that says so.
@@ -47,7 +171,7 @@ class SentenceIntake:
         self,
         node: Node,
         queue: ExecutionQueue,
-        journal: SentenceJournal,
+        journal: Journal,
         *,
         journal_age: float,
         check: Callable[[Sentence], None],
@@ -72,7 +196,7 @@ class SentenceIntake:
         self._check, self._now, self._carry_out = check, now, carry_out
         self._own_language = own_language
         self._began = time.time()
-        self._goals = SentenceGoals(
+        self._goals = _Goals(
             node,
             accepts=self._accepts,
             take=self._take_goal,
@@ -95,12 +219,15 @@ class SentenceIntake:
 
     def take_over_journal(self) -> None:
         """Sign what an executor before this one was killed with, or name it."""
-        attempts = self._queue.settings.attempts
-        for kept, error in self._journal.left(attempts=attempts, age=self._journal_age):
-            if error is None:
-                self._submit(kept.sentence, attempts=kept.attempts)
-            else:
+        for kept in self._journal.left:
+            waited = time.time() - kept.accepted
+            if kept.attempts >= self._queue.settings.attempts:
+                error = PlanError("interrupted", "the executor ended while it signed it: send it again")
                 self._refuse(kept.sentence, error)
+            elif waited > self._journal_age:
+                self._refuse(kept.sentence, _expired(waited))
+            else:
+                self._submit(kept.sentence, attempts=kept.attempts)
         self._journal.begin()
 
     def give_feedback(self, progress: Progress) -> None:
@@ -130,7 +257,7 @@ class SentenceIntake:
         sentence = to_sentence(message)
         waited = time.time() - key.published * 1e-9
         if key.published * 1e-9 < self._began and waited > self._journal_age:
-            self._refuse(sentence, expired(waited))
+            self._refuse(sentence, _expired(waited))
         elif self._accepts(sentence):
             self._submit(sentence, message=key)
             return
@@ -164,5 +291,5 @@ class SentenceIntake:
         ticket, events = self._queue.submit(sentence, self._now(), attempts=attempts)
         if goal is not None:
             self._goals.add(ticket, goal)
-        self._journal.accepted(ticket, sentence, attempts=attempts, message=message)
+        self._journal.accepted(ticket, sentence, time.time(), attempts=attempts, message=message)
         self._carry_out(events)

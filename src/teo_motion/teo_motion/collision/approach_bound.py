@@ -40,7 +40,7 @@ class ArmReach(NamedTuple):
     (digits, joints)."""
 
 
-class BodyReach(NamedTuple):
+class _BodyReach(NamedTuple):
     """A whole robot."""
 
     arms: Mapping[Side, ArmReach]
@@ -50,13 +50,13 @@ class BodyReach(NamedTuple):
     """The same of all that the trunk carries."""
 
 
-def reach_of(robot: Robot) -> BodyReach:
+def _reach_of(robot: Robot) -> _BodyReach:
     """The reach that the robot's description states; where it states none, as measured."""
     stated = robot.humanoid.file.reach
     return _Parts(robot).reach_of_all() if stated is None else _stated(robot.humanoid, stated)
 
 
-def _stated(humanoid: Humanoid, reach: Reach) -> BodyReach:
+def _stated(humanoid: Humanoid, reach: Reach) -> _BodyReach:
     def swings(axes: Mapping[str | None, float]) -> Array:
         row = np.zeros(len(humanoid.commanded_joints))
         for name, swing in axes.items():
@@ -71,7 +71,7 @@ def _stated(humanoid: Humanoid, reach: Reach) -> BodyReach:
         abductor, thumb, *fingers = humanoid.hand_axes(side)
         digits = [{abductor: reach.abductor, thumb: reach.thumb}, *({name: reach.finger} for name in fingers)]
         arms[side] = ArmReach(corners, reach.arm, np.array([swings(axes) for axes in digits]))
-    return BodyReach(
+    return _BodyReach(
         arms=arms,
         head=swings(dict.fromkeys(humanoid.head, reach.head))[None],
         trunk=swings(dict.fromkeys(humanoid.trunk, reach.trunk))[None],
@@ -125,10 +125,10 @@ class _Parts:
             self._reaches[joint] = max(float(own), *beyond, 0.0)
         return self._reaches[joint]
 
-    def reach_of_all(self) -> BodyReach:
+    def reach_of_all(self) -> _BodyReach:
         """The whole robot."""
         humanoid = self.robot.humanoid
-        return BodyReach(
+        return _BodyReach(
             arms={side: self._arm(humanoid.arm(side)) for side in SIDES},
             head=self._swings(humanoid.head),
             trunk=self._swings(humanoid.trunk),
@@ -187,7 +187,7 @@ class ApproachBound:
         Raises:
             DescriptionError: The joints of an arm do not follow one another ("bad_robot").
         """
-        self._reach = reach_of(robot)
+        self._reach = _reach_of(robot)
         self._arms = tuple(_Arm(robot, side, self._reach.arms[side]) for side in SIDES)
 
     def approaches(self, positions: Array) -> Array:

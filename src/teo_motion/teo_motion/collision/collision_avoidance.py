@@ -12,13 +12,11 @@ import numpy as np
 
 from teo_common.arrays import Array
 from teo_description.hand_geometry import HandTable
-from teo_motion.collision.detour import detours, with_detour
+from teo_motion.collision.detours import detours, with_clear_thumbs, with_detour
 from teo_motion.collision.motion_clearance import MotionClearance
-from teo_motion.collision.thumb_way import with_clear_thumbs
-from teo_motion.sentence.composition import ARMS, Composition
+from teo_motion.sentence.composition import ARMS, Composition, Route
 from teo_motion.sentence.idle_limb_policy import settle_idle_limbs
 from teo_motion.sentence.plan import Plan, sample_at
-from teo_motion.sentence.route import Route
 from teo_motion.sentence.timing import SentenceTiming, TimedRoute
 from teo_motion.trajectory.limits import MotionLimits
 from teo_signs.errors import PlanError

@@ -19,26 +19,13 @@ from teo_motion.sentence.plan import Plan, Samples
 from teo_motion.trajectory.driver_points import point_times, spline_points
 from teo_motion.trajectory.joint_motion import JointMotion, Pieces, take
 from teo_motion.trajectory.limits import MotionLimits
-from teo_motion.trajectory.ruckig_segment import (
-    ROUNDING,
-    Bounds,
-    RuckigSegment,
-    RuckigSolver,
-    State,
-    relaxed_bounds,
-)
+from teo_motion.trajectory.ruckig_segment import Bounds, RuckigSegment, RuckigSolver, State
 from teo_motion.trajectory.stopping import stop
 
 # Parts of the robot keep so much more than their least distance during an opening [m]: postures are looked at
 # every `_LOOK` seconds, between which a hand of a robot that only begins to move goes about so far.
 _MARGIN = 0.01
 _LOOK = 0.04
-
-# As in `waypoint_timing`: factors on the least-jerk quintic's acceleration and jerk.
-_EASES = (1.3, 2.0, 4.0)
-
-# A segment fits its time when it needs no more than this beyond it [s]: rounding of sums of times.
-_FITS = 1e-9
 
 # Where the whole plan is to take over, at most this share of the way to the first sign has passed [1]: the
 # robot still speeds up, and a detour has room.
@@ -98,7 +85,7 @@ def opening(
         _standing(end.position, float(times[-1]) - taken_over - halt.duration),
     )
     looks = np.arange(0.0, times[-1] + _LOOK, _LOOK)
-    if not _keeps_limits(motion, bounds) or _touches(
+    if not bounds.allow(motion.extremes()) or _touches(
         _positions(motion, looks), motion_clearance, least_clearance + _MARGIN
     ):
         return None
@@ -118,12 +105,7 @@ def _eased(
     fastest = solver.segment(begin, end, bounds, duration=duration)
     if fastest is None:
         return None
-    for ease in _EASES:
-        eased = relaxed_bounds(begin, end, fastest.duration, bounds, ease=ease)
-        segment = solver.segment(begin, end, eased, duration=fastest.duration)
-        if segment is not None and segment.duration <= fastest.duration + _FITS:
-            return segment
-    return fastest
+    return next(solver.smooth_segments(begin, end, bounds, duration=fastest.duration), fastest)
 
 
 def _standing(position: Array, duration: float) -> Pieces:
@@ -179,17 +161,6 @@ def _of_each(pieces: Pieces) -> tuple[JointMotion, ...]:
     return tuple(
         JointMotion(starts=begins[joint, lasting], pieces=take(pieces, (joint, lasting)))
         for joint, lasting in enumerate(pieces.lengths > 0.0)
-    )
-
-
-def _keeps_limits(motion: Pieces, bounds: Bounds) -> bool:
-    reached, more = motion.extremes(), 1.0 + ROUNDING
-    return bool(
-        (reached.least >= bounds.lower - ROUNDING).all()
-        and (reached.greatest <= bounds.upper + ROUNDING).all()
-        and (reached.velocity <= bounds.velocity * more).all()
-        and (reached.acceleration <= bounds.acceleration * more).all()
-        and (reached.jerk <= bounds.jerk * more).all()
     )
 
 

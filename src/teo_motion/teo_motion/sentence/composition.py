@@ -15,13 +15,15 @@ are as in the hanging posture. An arm of which the sign moves the hand only stay
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_motion.sentence.rhythm import SigningStyle
+from teo_common.arrays import Array
+from teo_motion.sentence.signing_style import SigningStyle
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import State
 from teo_signs.errors import PlanError
@@ -68,27 +70,76 @@ class IdleSpan:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Composition:
-    """A sentence as waypoints.
+class Route:
+    """Waypoints, and the signs between them.
 
     Attributes:
-        targets: Positions [rad], NaN where a joint is free. Shape (n, joints); the first row is the start.
-        nominal: Time from each waypoint to the next, as recorded or by the style [s]. Shape (n - 1,).
+        targets: Positions [rad], NaN where a joint is on its way. Shape (n, joints); the first row is the
+            start.
+        nominal: Least time from each waypoint to the next, as recorded or by the style [s]. Shape (n - 1,).
         strokes: Number of the stroke to which each step from a waypoint to the next belongs: steps near each
             other in one stroke are stretched together. Shape (n - 1,).
         spans: Where each token is signed, in order.
-        idle: Where limbs are not used.
         start: State of the joints at the first waypoint.
+    """
+
+    targets: Array
+    nominal: Array
+    strokes: NDArray[np.intp]
+    spans: tuple[TokenSpan, ...]
+    start: State
+
+    def token_at(self, step: int) -> int | None:
+        """Index of the token that is signed between a waypoint and the next; None between two signs."""
+        for index, span in enumerate(self.spans):
+            if span.first <= step < span.last:
+                return index
+        return None
+
+    def with_waypoint(self, step: int, row: Array) -> Route:
+        """Pass through another waypoint half way between two others.
+
+        Args:
+            step: The waypoint before it.
+            row: Positions to pass through [rad], NaN where a joint goes on freely. Shape (joints,).
+        """
+        half = self.nominal[step] / 2.0
+        return dataclasses.replace(
+            self,
+            targets=np.insert(self.targets, step + 1, row, axis=0),
+            nominal=np.insert(
+                np.concatenate((self.nominal[:step], [half], self.nominal[step + 1 :])), step, half
+            ),
+            strokes=np.insert(self.strokes, step, self.strokes[step]),
+            spans=tuple(
+                dataclasses.replace(
+                    span, first=span.first + (span.first > step), last=span.last + (span.last > step)
+                )
+                for span in self.spans
+            ),
+        )
+
+    def name_at(self, waypoint: int) -> str:
+        """What the robot does at a waypoint, for people."""
+        if waypoint == 0:
+            return "the start"
+        for span in self.spans:
+            if span.first <= waypoint <= span.last:
+                return f"the sign {span.token.gloss!r}" if span.token.gloss else "a pause"
+        return "rest" if waypoint == len(self.targets) - 1 else "a posture between two signs"
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Composition(Route):
+    """A sentence as waypoints, at which the joints of limbs that are not used are free.
+
+    Attributes:
+        idle: Where limbs are not used.
         rest: Where idle limbs go, and all limbs at the end [rad]. Shape (joints,).
     """
 
-    targets: NDArray[np.float64]
-    nominal: NDArray[np.float64]
-    strokes: NDArray[np.intp]
-    spans: tuple[TokenSpan, ...]
     idle: tuple[IdleSpan, ...]
-    start: State
-    rest: NDArray[np.float64]
+    rest: Array
 
 
 def compose(
@@ -97,7 +148,7 @@ def compose(
     start: State,
     limits: MotionLimits,
     style: SigningStyle,
-    rest: NDArray[np.float64],
+    rest: Array,
     hold: float = 0.0,
 ) -> Composition:
     """Lay a sentence out, from a start to rest.
@@ -145,9 +196,7 @@ def _stands_still(sign: Sign) -> float:
 class _Composer:
     """Adds waypoint after waypoint, and remembers where each limb was last."""
 
-    def __init__(
-        self, start: State, limits: MotionLimits, style: SigningStyle, rest: NDArray[np.float64]
-    ) -> None:
+    def __init__(self, start: State, limits: MotionLimits, style: SigningStyle, rest: Array) -> None:
         self._start = start
         self._limits = limits
         self._robot = limits.humanoid
@@ -155,7 +204,7 @@ class _Composer:
         self._style = style
         self._rest = rest
         self._posture = start.position.copy()
-        self._rows: list[NDArray[np.float64]] = [start.position.copy()]
+        self._rows: list[Array] = [start.position.copy()]
         self._nominal: list[float] = []
         self._strokes: list[int] = []
         self._spans: list[TokenSpan] = []
@@ -224,7 +273,7 @@ class _Composer:
     def _fix(
         self,
         nominal: float,
-        posture: NDArray[np.float64],
+        posture: Array,
         limbs: tuple[str, ...],
         *,
         same_stroke: bool = False,
@@ -243,7 +292,7 @@ class _Composer:
         self._nominal.append(nominal)
         self._strokes.append(self._strokes[-1] + (not same_stroke) if self._strokes else 0)
 
-    def _rows_of(self, sign: Sign) -> tuple[NDArray[np.float64], tuple[str, ...]]:
+    def _rows_of(self, sign: Sign) -> tuple[Array, tuple[str, ...]]:
         """Knots of a sign as whole postures, and the limbs they fix."""
         columns = self._robot.columns(sign.joints)
         moved = {limb for limb, members in self._limbs.items() if not set(members).isdisjoint(columns)}
@@ -275,7 +324,7 @@ class _Composer:
             hold = max(still, self._style.posture_hold)
         return max(hold, self._style.final_hold) if ends_sentence else hold
 
-    def _looks_the_same(self, posture: NDArray[np.float64], limbs: tuple[str, ...]) -> bool:
+    def _looks_the_same(self, posture: Array, limbs: tuple[str, ...]) -> bool:
         columns = [column for limb in limbs for column in self._limbs[limb]]
         difference = np.abs(posture[columns] - self._posture[columns]).max()
         return set(limbs) == set(self._used) and bool(difference < _SAME_POSTURE)

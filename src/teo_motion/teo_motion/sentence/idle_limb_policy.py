@@ -23,8 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_common.arrays import Array
-from teo_motion.sentence.composition import ARMS, Composition, IdleSpan
-from teo_motion.sentence.route import Route
+from teo_motion.sentence.composition import ARMS, Composition, IdleSpan, Route
 from teo_motion.trajectory.limits import MotionLimits
 
 

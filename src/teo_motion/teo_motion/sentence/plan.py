@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The result of planning: the motion of a sentence and when each token is signed."""
+"""The result of planning: the motion of a sentence, when each token is signed, what torque it takes."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_motion.sentence.head_gestures import GestureKind
+from teo_description.robot import Robot
+from teo_motion.sentence.sentence_form import GestureKind
 from teo_motion.trajectory.joint_motion import JointMotion
 from teo_signs.tokens import Token
 
@@ -148,3 +149,38 @@ def sample_at(motions: tuple[JointMotion, ...], times: Array) -> Samples:
     for array in (times, positions, velocities, accelerations):
         array.setflags(write=False)
     return Samples(times=times, positions=positions, velocities=velocities, accelerations=accelerations)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PeakTorque:
+    """The greatest torque of a joint in a plan.
+
+    Attributes:
+        joint: Its name.
+        torque: Amount of the torque [N m].
+        share: Torque over the joint's effort limit [1].
+        time: When [s].
+    """
+
+    joint: str
+    torque: float
+    share: float
+    time: float
+
+
+def peak_torques(plan: Plan, robot: Robot) -> tuple[PeakTorque, ...]:
+    """Peak torque of each joint of head, trunk and arms, the largest share of its limit first.
+
+    The hands are left out: their masses are placeholders, and tendons bear their load.
+    """
+    needed = np.abs(robot.torques(plan.positions, plan.velocities, plan.accelerations))
+    peaks = []
+    joints = robot.humanoid.body_joints
+    for joint, effort in zip(joints, robot.humanoid.effort_limits(joints).tolist(), strict=True):
+        column = needed[:, plan.names.index(joint)]
+        row = int(column.argmax())
+        torque = float(column[row])
+        peaks.append(
+            PeakTorque(joint=joint, torque=torque, share=torque / effort, time=float(plan.times[row]))
+        )
+    return tuple(sorted(peaks, key=lambda peak: peak.share, reverse=True))

@@ -9,9 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_motion.sentence.composition import Composition
+from teo_motion.sentence.composition import Composition, Route
 from teo_motion.sentence.plan import Plan, Samples, TokenTiming
-from teo_motion.sentence.route import Route
 from teo_motion.trajectory.driver_points import driver_points, point_times
 from teo_motion.trajectory.joint_motion import JointMotion
 from teo_motion.trajectory.limits import MotionLimits

@@ -11,17 +11,32 @@ are taken from the pieces of the segment here.
 from __future__ import annotations
 
 import functools
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 import ruckig
 
 from teo_common.arrays import Array
-from teo_motion.trajectory.joint_motion import Pieces
+from teo_motion.trajectory.joint_motion import Extremes, Pieces
 from teo_signs.errors import PlanError
 
 # A motion may be beyond a position limit by this much, from the rounding of its sums [rad].
 ROUNDING = 1e-8
+
+# A segment fits its time when it needs no more than this beyond it [s]: rounding of sums of times.
+FITS = 1e-9
+
+# Factors on the least-jerk quintic's acceleration and jerk, the smoothest first [1]; None is the limits.
+_EASES = (1.3, 2.0, 4.0, None)
+
+# Least share of the limits that a segment is given: a joint that hardly moves would otherwise get none.
+_LEAST_SHARE = 0.02
+
+# A little more jerk than exactly enough [1]: rounding must not make it too little.
+_SPARE = 1.01
+
+_SAMPLES = np.linspace(0.0, 1.0, 9)[:, None]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -37,6 +52,17 @@ class Bounds:
     velocity: Array
     acceleration: Array
     jerk: Array
+
+    def allow(self, reached: Extremes) -> bool:
+        """Whether motions stay within the limits, up to `ROUNDING`."""
+        more = 1.0 + ROUNDING
+        return bool(
+            np.all(reached.least >= self.lower - ROUNDING)
+            and np.all(reached.greatest <= self.upper + ROUNDING)
+            and np.all(reached.velocity <= self.velocity * more)
+            and np.all(reached.acceleration <= self.acceleration * more)
+            and np.all(reached.jerk <= self.jerk * more)
+        )
 
     def of(self, columns: list[int]) -> Bounds:
         """The limits of some of the joints."""
@@ -115,16 +141,12 @@ class RuckigSolver:
             PlanError: An array is of the wrong length or holds a number that is not finite ("bad_state").
         """
         given = self._input
-        given.current_position = self._list("start position", start.position)
-        given.current_velocity = self._list("start velocity", start.velocity)
-        given.current_acceleration = self._list("start acceleration", start.acceleration)
+        self._begin_at(start, given)
         given.target_position = self._list("end position", end.position)
         given.target_velocity = self._list("end velocity", end.velocity)
         given.target_acceleration = self._list("end acceleration", end.acceleration)
         if bounds is not self._bounds:
-            given.max_velocity = self._list("velocity limit", bounds.velocity, positive=True)
-            given.max_acceleration = self._list("acceleration limit", bounds.acceleration, positive=True)
-            given.max_jerk = self._list("jerk limit", bounds.jerk, positive=True)
+            self._keep_to(bounds, given)
             self._bounds = bounds
         given.minimum_duration = duration
         trajectory = ruckig.Trajectory(self._joints)
@@ -151,16 +173,35 @@ class RuckigSolver:
         given = ruckig.InputParameter(self._joints)
         given.control_interface = ruckig.ControlInterface.Velocity
         given.synchronization = ruckig.Synchronization.No
-        given.current_position = self._list("start position", start.position)
-        given.current_velocity = self._list("start velocity", start.velocity)
-        given.current_acceleration = self._list("start acceleration", start.acceleration)
-        given.max_velocity = self._list("velocity limit", bounds.velocity, positive=True)
-        given.max_acceleration = self._list("acceleration limit", bounds.acceleration, positive=True)
-        given.max_jerk = self._list("jerk limit", bounds.jerk, positive=True)
+        self._begin_at(start, given)
+        self._keep_to(bounds, given)
         trajectory = ruckig.Trajectory(self._joints)
         # To a standstill there is a way from every state: it raises nothing and always finds one.
         self._generator.calculate(given, trajectory)
         return _pieces(trajectory, start)
+
+    def smooth_segments(
+        self, begin: State, end: State, bounds: Bounds, *, duration: float
+    ) -> Iterator[RuckigSegment]:
+        """Segments that take no longer than a duration [s], those of least acceleration and jerk first.
+
+        The last may need all of the bounds.
+        """
+        for ease in _EASES:
+            within = bounds if ease is None else _relaxed_bounds(begin, end, duration, bounds, ease=ease)
+            segment = self.segment(begin, end, within, duration=duration)
+            if segment is not None and segment.duration <= duration + FITS:
+                yield segment
+
+    def _begin_at(self, start: State, given: ruckig.InputParameter) -> None:
+        given.current_position = self._list("start position", start.position)
+        given.current_velocity = self._list("start velocity", start.velocity)
+        given.current_acceleration = self._list("start acceleration", start.acceleration)
+
+    def _keep_to(self, bounds: Bounds, given: ruckig.InputParameter) -> None:
+        given.max_velocity = self._list("velocity limit", bounds.velocity, positive=True)
+        given.max_acceleration = self._list("acceleration limit", bounds.acceleration, positive=True)
+        given.max_jerk = self._list("jerk limit", bounds.jerk, positive=True)
 
     def _list(self, name: str, values: Array, *, positive: bool = False) -> list[float]:
         if values.shape != (self._joints,):
@@ -197,16 +238,7 @@ def _pieces(trajectory: ruckig.Trajectory, start: State) -> Pieces:
     )
 
 
-# Least share of the limits that a segment is given: a joint that hardly moves would otherwise get none.
-_LEAST_SHARE = 0.02
-
-# A little more jerk than exactly enough [1]: rounding must not make it too little.
-_SPARE = 1.01
-
-_SAMPLES = np.linspace(0.0, 1.0, 9)[:, None]
-
-
-def relaxed_bounds(begin: State, end: State, duration: float, bounds: Bounds, *, ease: float) -> Bounds:
+def _relaxed_bounds(begin: State, end: State, duration: float, bounds: Bounds, *, ease: float) -> Bounds:
     """Bounds a little above what a smooth segment in this time reaches.
 
     A segment with time to spare would otherwise jump to a low speed, keep it and stop as hard as the limits

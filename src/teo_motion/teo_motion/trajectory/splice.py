@@ -11,16 +11,10 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from teo_motion.trajectory.joint_motion import JointMotion, JointMotionBuilder, Pieces, take
-from teo_motion.trajectory.ruckig_segment import ROUNDING, Bounds, RuckigSolver, State, relaxed_bounds
-
-# A segment fits its time when it needs no more than this beyond it [s]: rounding of sums of times.
-_FITS = 1e-9
+from teo_motion.trajectory.ruckig_segment import FITS, Bounds, RuckigSolver, State
 
 # A joint with less velocity [rad/s] and acceleration [rad/s^2] stands still: rounding.
 _STILL = 1e-9
-
-# As in `waypoint_timing`: factors on the least-jerk quintic's acceleration and jerk; None is the limits.
-_EASES = (1.3, 2.0, 4.0, None)
 
 
 class StandPoint(NamedTuple):
@@ -71,7 +65,7 @@ class Splicer:
                 return None
             inside.add(time, pieces)
         path = inside.build(end)
-        if not self._keeps_limits(path):
+        if not self._bounds.allow(path.extremes()):
             return None
         whole = JointMotionBuilder()
         _copy(motion, 0.0, begin, whole)
@@ -80,25 +74,8 @@ class Splicer:
         return whole.build(motion.duration)
 
     def _move(self, begin: State, end: State, duration: float) -> Pieces | None:
-        for ease in _EASES:
-            bounds = self._bounds
-            if ease is not None:
-                bounds = relaxed_bounds(begin, end, duration, bounds, ease=ease)
-            segment = self._solver.segment(begin, end, bounds, duration=duration)
-            if segment is not None and segment.duration <= duration + _FITS:
-                return take(segment.pieces, 0)
-        return None
-
-    def _keeps_limits(self, path: JointMotion) -> bool:
-        reached, bounds = path.extremes(), self._bounds
-        more = 1.0 + ROUNDING
-        return bool(
-            reached.least >= bounds.lower[0] - ROUNDING
-            and reached.greatest <= bounds.upper[0] + ROUNDING
-            and reached.velocity <= bounds.velocity[0] * more
-            and reached.acceleration <= bounds.acceleration[0] * more
-            and reached.jerk <= bounds.jerk[0] * more
-        )
+        segments = self._solver.smooth_segments(begin, end, self._bounds, duration=duration)
+        return next((take(segment.pieces, 0) for segment in segments), None)
 
 
 def shifted(motion: JointMotion, begin: float, end: float, angle: float) -> JointMotion:
@@ -135,7 +112,7 @@ def _state(motion: JointMotion, time: float, *, side: Literal["left", "right"]) 
 
 def _piece_at(motion: JointMotion, time: float, *, side: Literal["left", "right"]) -> int:
     """Index of the piece that ends ("left") or begins ("right") at a time, or contains it, up to rounding."""
-    nearly = time - _FITS if side == "left" else time + _FITS
+    nearly = time - FITS if side == "left" else time + FITS
     return max(int(np.searchsorted(motion.starts, nearly, side=side)) - 1, 0)
 
 

@@ -16,15 +16,12 @@ from numpy.typing import NDArray
 
 from teo_common.arrays import Array
 from teo_motion.trajectory.joint_motion import JointMotion, JointMotionBuilder, take
-from teo_motion.trajectory.ruckig_segment import Bounds, RuckigSegment, State
+from teo_motion.trajectory.ruckig_segment import FITS, Bounds, RuckigSegment, State
 from teo_motion.trajectory.waypoint_chain import WaypointChain, waypoint_chains
 from teo_signs.errors import PlanError
 
 # No two waypoints are closer than this [s]: a twentieth of the time between two set-points of TEO's drives.
 _LEAST_STEP = 1e-3
-
-# A segment fits its time when it needs no more than this beyond it [s]: rounding of sums of times.
-_FITS = 1e-9
 
 # Most by which a stroke is stretched in one round of the search [1]: how the knots are passed is found anew
 # before it is stretched further, so that a first guess that passes them badly does not make it too slow.
@@ -135,7 +132,7 @@ class WaypointTiming:
         """Ask for the time that a segment needs, at most by a factor at once; whether it has too little."""
         under = slice(chain.waypoints[index], chain.waypoints[index + 1])
         given = float(self._durations[under].sum())
-        if needed <= given + _FITS:
+        if needed <= given + FITS:
             return False
         spare = 1.0 if chain.is_rest_to_rest(index) else _SPARE
         self._wanted[under] = np.maximum(self._wanted[under], math.log(min(spare * needed / given, most)))
@@ -180,13 +177,7 @@ class WaypointTiming:
 
     def _final_segment(self, chain: WaypointChain, index: int) -> RuckigSegment:
         """The segment with the least acceleration and jerk that still takes its time."""
-        for ease in (1.3, 2.0, 4.0, None):
-            segment = chain.segment(index, ease)
-            if (
-                segment is not None
-                and segment.duration <= chain.duration(index) + _FITS
-                and not chain.beyond(index, segment).any()
-                and not chain.is_too_fast(index, segment)
-            ):
+        for segment in chain.smooth_segments(index):
+            if not chain.beyond(index, segment).any() and not chain.is_too_fast(index, segment):
                 return segment
         raise PlanError("no_timing", "expected a segment that was found before, got none")

@@ -22,8 +22,7 @@ from scipy.optimize import lsq_linear
 from teo_common.arrays import Array
 from teo_description.humanoid import Humanoid
 from teo_description.robot import Robot
-from teo_motion.trajectory.waypoint_chain import OVERSHOOT
-from teo_motion.trajectory.waypoint_states import waypoint_states
+from teo_motion.trajectory.waypoint_chain import OVERSHOOT, waypoint_states
 
 # [rad] Arms, head, trunk: with all joints of an arm at its edge the hand is 2 cm off.
 BODY_TUBE = np.radians(2.0)

@@ -12,11 +12,10 @@ import numpy as np
 from teo_description import JointLimits
 from teo_sim_driver.checking.reading import Points
 from teo_sim_driver.checking.validation import Codes, check_between, first_place, of_joints, per_joint
-from teo_sim_driver.errors import Refusal, TrajectoryError
 from teo_sim_driver.motion.bezier import FloatArray
 from teo_sim_driver.motion.path_time import SECOND
 from teo_sim_driver.motion.trajectory import MotionState, Trajectory
-from teo_sim_driver.rules import REST_VELOCITY, Rules
+from teo_sim_driver.rules import REST_VELOCITY, Refusal, Rules, TrajectoryError
 
 # A point of a late trajectory that is due sooner is passed like those before it [s]: half of the usual step,
 # in which joints that are a little beside the path, as the sender could not know, cannot be back on it.

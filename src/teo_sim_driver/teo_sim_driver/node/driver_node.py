@@ -19,14 +19,11 @@ from teo_common.node_process import run_node
 from teo_common.parameters import declare_parameters
 from teo_description.errors import DescriptionError
 from teo_description.humanoid import Humanoid, load_humanoid
-from teo_sim_driver.errors import DriverError, TrajectoryError
-from teo_sim_driver.follower_report import FollowerReport, Mode
-from teo_sim_driver.health import RefusalLog, assess
+from teo_sim_driver.follower_report import FollowerReport, Mode, RefusalLog, assess
 from teo_sim_driver.joint_follower import JointFollower
 from teo_sim_driver.motion.path_time import Braking
 from teo_sim_driver.motion.trajectory import MotionState
-from teo_sim_driver.node.command_inputs import CommandInputs
-from teo_sim_driver.node.operator_services import OperatorServices
+from teo_sim_driver.node.command_inputs import CommandInputs, OperatorServices
 from teo_sim_driver.node.state_topics import (
     ControllerStatePublisher,
     DriverStatePublisher,
@@ -34,9 +31,16 @@ from teo_sim_driver.node.state_topics import (
     JointStatePublisher,
 )
 from teo_sim_driver.parameters import FAULT_PARAMETERS, IDEAL, MUJOCO, PARAMETERS, RULE_PARAMETERS
-from teo_sim_driver.plants.plant import Faults, FaultyPlant, IdealPlant, Plant, StateLine
-from teo_sim_driver.plants.watch import fault, where_to_hold
-from teo_sim_driver.rules import Rules
+from teo_sim_driver.plants.plant import (
+    Faults,
+    FaultyPlant,
+    IdealPlant,
+    Plant,
+    StateLine,
+    fault,
+    where_to_hold,
+)
+from teo_sim_driver.rules import DriverError, Rules, TrajectoryError
 
 _LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 

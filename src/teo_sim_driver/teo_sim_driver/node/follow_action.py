@@ -19,15 +19,14 @@ from rclpy.action import ActionServer, CancelResponse
 from rclpy.node import Node
 from rclpy.task import Future
 
-from teo_sim_driver.errors import Refusal, TrajectoryError
 from teo_sim_driver.follower_report import FollowerReport, Mode, Source
 from teo_sim_driver.goal_monitor import GoalMonitor, ResultCode, Tolerances, result_code
-from teo_sim_driver.groups import JointGroup
 from teo_sim_driver.motion.commanded_path import Command
 from teo_sim_driver.motion.path_time import SECOND
 from teo_sim_driver.motion.trajectory import MotionState
 from teo_sim_driver.node.lean_goal import lean_action
 from teo_sim_driver.node.state_topics import difference, point
+from teo_sim_driver.rules import JointGroup, Refusal, TrajectoryError
 
 # How often a goal's progress is told [Hz]: action_monitor_rate of joint_trajectory_controller.
 _FEEDBACK_RATE = 20

@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The joints: told where to be, they say where they are."""
+"""The joints: told where to be, they say where they are; what can be wrong with them, and the fault seen."""
 
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -124,3 +125,42 @@ class StateLine:
         while self._waiting and now - self._waiting[0][0] >= faults.state_delay * 1e9:
             arrived.append(self._waiting.popleft())
         return arrived
+
+
+def fault(
+    joints: Sequence[str], asked: MotionState, measured: MotionState, tolerance: float, pressed: Sequence[str]
+) -> str:
+    """A sentence on what is wrong, empty if nothing is.
+
+    Args:
+        joints: Their names.
+        asked: What was sent to them.
+        measured: Where they are.
+        tolerance: How far a joint may be from where it was told to be [rad].
+        pressed: Joints whose limit switch is pressed.
+    """
+    if pressed:
+        return f"the limit switch of {', '.join(pressed)} is pressed"
+    error = np.abs(measured.positions - asked.positions)
+    j = int(np.argmax(error))
+    if error[j] <= tolerance:
+        return ""
+    return (
+        f"{joints[j]} does not follow: expected {asked.positions[j]:.4f} rad within {tolerance:g} rad, "
+        f"it is at {measured.positions[j]:.4f} rad"
+    )
+
+
+def where_to_hold(asked: MotionState, measured: MotionState, tolerance: float) -> FloatArray | None:
+    """Where drives hold that are switched on again: those that did not follow, where they are.
+
+    Args:
+        asked: What was sent to them.
+        measured: Where they are.
+        tolerance: How far a joint may be from where it was told to be [rad].
+
+    Returns:
+        Positions [rad]; None if all of them followed. Shape (joints,).
+    """
+    astray = np.abs(measured.positions - asked.positions) > tolerance
+    return np.where(astray, measured.positions, asked.positions) if astray.any() else None

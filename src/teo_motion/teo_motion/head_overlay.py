@@ -23,10 +23,9 @@ import numpy as np
 
 from teo_description.humanoid import Humanoid
 from teo_motion.collision.motion_clearance import MotionClearance
-from teo_motion.head.lean import Leaning, Times
-from teo_motion.head.neck_paths import GestureWindow, NeckPath, nod_paths, shake_paths
-from teo_motion.sentence.head_gestures import Gesture, GestureKind
+from teo_motion.neck_paths import GestureWindow, Leaning, NeckPath, Times, nod_paths, shake_paths
 from teo_motion.sentence.plan import HeadGesture, NearestApproach, Plan, Samples
+from teo_motion.sentence.sentence_form import Gesture, GestureKind
 from teo_motion.trajectory.driver_points import driver_points
 from teo_motion.trajectory.joint_motion import JointMotion
 from teo_motion.trajectory.limits import MotionLimits

@@ -13,15 +13,14 @@ from collections import deque
 from collections.abc import Callable
 from multiprocessing.connection import Connection
 
-from teo_lut_executor.execution.events import PlanWanted, ReturnWanted
-from teo_lut_executor.planning.settings import PlannerSettings
-from teo_lut_executor.planning.worker import Answer, NotPlanned, Opened, Ready
+from teo_lut_executor.execution.interface import PlanWanted, ReturnWanted
+from teo_lut_executor.planning_worker import Answer, NotPlanned, Opened, PlannerSettings, Ready
 
 # How long the process may take to end once its socket is closed [s]; it is killed then.
 _END_TIMEOUT = 1.0
 
 # Not with `-m`: the answers' classes would be those of a module `__main__`, which nobody else knows.
-_COMMAND = "from teo_lut_executor.planning.worker import main; main()"
+_COMMAND = "from teo_lut_executor.planning_worker import main; main()"
 
 
 class PlanningProcess:

@@ -168,7 +168,7 @@ class TrajectoryReady:
     Attributes:
         number: Names the motion in `driver_refused`.
         plan: The motion.
-        samples: What the driver is sent: the plan's, or `seam.continued` where it continues a motion.
+        samples: What the driver is sent: the plan's, or `SentMotion.continued` where it continues a motion.
         start: When the robot is to be at the first sample [s]; None where it stands there: as soon as the
             driver has the motion, which thus is never too late.
     """

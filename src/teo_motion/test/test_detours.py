@@ -13,8 +13,8 @@ from teo_common.arrays import Array
 from teo_description.hand_geometry import TOUCH, hand_table
 from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
-from teo_motion.collision.thumb_way import with_clear_thumbs
-from teo_motion.sentence.route import Route
+from teo_motion.collision.detours import with_clear_thumbs
+from teo_motion.sentence.composition import Route
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import State
 from teo_names import COMMANDED_JOINTS, LEFT_HAND, RIGHT_HAND

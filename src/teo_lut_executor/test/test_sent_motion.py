@@ -11,7 +11,7 @@ import pytest
 
 from executed_motion import executed, judged
 from queue_world import World
-from teo_lut_executor.execution.events import Preemption, QueueSettings
+from teo_lut_executor.execution.interface import Preemption, QueueSettings
 from teo_signs.sign import Sign
 
 
@@ -60,7 +60,7 @@ def test_a_newer_text_that_takes_over_keeps_every_limit(table: Mapping[str, Sign
 
 
 # Seconds after the sentence came: in its opening, just before its plan takes over, and while it signs.
-@pytest.mark.parametrize("moment", [0.2, 0.47, 0.9, 1.31, 1.7, 2.2, 2.53, 2.8])
+@pytest.mark.parametrize("moment", [0.2, 0.47, 1.31, 2.53])
 def test_a_stop_keeps_every_limit(table: Mapping[str, Sign], moment: float) -> None:
     world = World(table)
     world.run(0.2)
@@ -76,7 +76,7 @@ def test_a_stop_keeps_every_limit(table: Mapping[str, Sign], moment: float) -> N
 
 
 # Ticks after the plan was sent that takes over from the opening: the last of them find it in force.
-@pytest.mark.parametrize("ticks", range(9))
+@pytest.mark.parametrize("ticks", range(0, 9, 2))
 def test_a_stop_about_a_take_over_keeps_every_limit(table: Mapping[str, Sign], ticks: int) -> None:
     world = World(table)
     world.run(0.2)

@@ -12,10 +12,9 @@ from rclpy.serialization import serialize_message
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from teo_names import LEG_JOINTS
-from teo_sim_driver.checking.cdr import FIELDS, CdrTrajectory
+from teo_sim_driver.checking.reading import FIELDS, CdrTrajectory
 from teo_sim_driver.checking.validation import check
-from teo_sim_driver.errors import TrajectoryError
-from teo_sim_driver.rules import Rules
+from teo_sim_driver.rules import Rules, TrajectoryError
 
 
 def assert_same(message):
@@ -35,7 +34,7 @@ def assert_same(message):
             assert read.table(field).tolist() == rows
 
 
-@settings(max_examples=100)
+@settings(max_examples=60)
 @given(
     seed=st.integers(0, 2**32),
     joints=st.integers(0, 30),
@@ -88,7 +87,7 @@ def test_spoilt_bytes_get_a_reason(swing, limits):
     good = bytearray(serialize_message(swing(duration=1.0, angle=-0.1)))
     codes = set()
 
-    @settings(max_examples=500)
+    @settings(max_examples=200)
     @given(
         cut=st.integers(0, len(good)),
         flips=st.lists(st.tuples(st.integers(0, len(good) - 1), st.integers(0, 255)), max_size=4),

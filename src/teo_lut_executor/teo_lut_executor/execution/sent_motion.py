@@ -1,6 +1,14 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Whether the robot does what it was sent."""
+"""A motion that was sent to the driver: whether the robot follows it, and how another one continues it.
+
+What a driver is sent passes a motion at a small distance (see `driver_points`), by where the motion is a
+period before and after. A continuation that began with points of its own would thus begin a little beside
+the points in force, and a driver makes that good within one period, at several times the limit of jerk.
+Instead both motions, one up to the seam and the other from there on, are made points of together. In the
+period before the seam these depend already on what comes after it, and before that they are those in force:
+the continuation is sent to begin there.
+"""
 
 from __future__ import annotations
 
@@ -9,11 +17,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from teo_lut_executor.execution.events import QueueSettings
-from teo_lut_executor.execution.robot_state import RobotState
-from teo_motion.sentence.plan import Plan
+from teo_lut_executor.execution.interface import QueueSettings
+from teo_lut_executor.execution.situation import RobotState
+from teo_motion.sentence.plan import Plan, Samples, sample_at
+from teo_motion.trajectory.driver_points import spline_points
 from teo_motion.trajectory.ruckig_segment import State
 from teo_signs.errors import PlanError
+
+# With less time than this the driver might get a continuation too late [s]: a period of points, and the
+# message's way.
+LEAST_AHEAD = 0.07
+
+# Times of points are products, those of signs are sums: so much apart they are the same [s].
+_ROUNDING = 1e-9
 
 # The driver's own path time is taken where it differs from ours by less than this [s]: more, and it speaks of
 # another trajectory, the one before ours or one of somebody else.
@@ -25,22 +41,22 @@ _DEPARTURE = 2.0
 
 
 @dataclass(kw_only=True, eq=False)
-class PathMonitor:
-    """Compares a motion that was sent with the joint states.
+class SentMotion:
+    """A motion that was sent, compared with the joint states.
 
     Times along the motion are the driver's path time: it runs slower than the clock, or stands still, while
     the driver is told to go slowly or to pause.
 
     Attributes:
         number: Names the motion.
-        motion: What was sent.
+        plan: What was sent.
         elapsed: Path time since its first sample [s]; negative before it.
         settings: What counts as followed and reached.
         awaited: Whether it begins as soon as the driver has it, and the driver has not told yet that it has.
     """
 
     number: int
-    motion: Plan
+    plan: Plan
     elapsed: float
     settings: QueueSettings
     awaited: bool = False
@@ -55,14 +71,14 @@ class PathMonitor:
 
     def synchronise(self, remaining: float) -> None:
         """Take the driver's word for the path time that is left to the end [s]."""
-        elapsed = self.motion.duration - remaining
+        elapsed = self.plan.duration - remaining
         longest = math.inf if self.awaited else _SAME_TRAJECTORY
         if -_SAME_TRAJECTORY < self.elapsed - elapsed < longest:
             self.elapsed, self.awaited = elapsed, False
 
     def state_at(self, time: float) -> State:
         """State of the joints at a path time [s]."""
-        position, velocity, acceleration = self.motion.at(time)
+        position, velocity, acceleration = self.plan.at(time)
         return State(position=position, velocity=velocity, acceleration=acceleration)
 
     def is_reached(self, robot: RobotState, age: float) -> bool:
@@ -73,19 +89,19 @@ class PathMonitor:
             age: Of the oldest of them, in path time [s].
         """
         # A robot a little late is within the tolerance, but still moving: no start for the next motion.
-        if self.elapsed - age < self.motion.duration or not robot.is_still:
+        if self.elapsed - age < self.plan.duration or not robot.is_still:
             return False
-        return robot.farthest(self.motion.positions[-1])[0] <= self.settings.goal_tolerance
+        return robot.farthest(self.plan.positions[-1])[0] <= self.settings.goal_tolerance
 
     def problem(self, robot: RobotState, age: float) -> PlanError | None:
         """What is wrong ("not_followed" or "not_reached"); None while all may still be well."""
-        if self.elapsed < self.motion.duration:
+        if self.elapsed < self.plan.duration:
             return self._path_problem(robot, self.elapsed - age)
-        if self.elapsed <= self.motion.duration + self.settings.goal_time:
+        if self.elapsed <= self.plan.duration + self.settings.goal_time:
             return None
         found = "no joint states since"
-        if self.elapsed - age >= self.motion.duration:
-            distance, joint = robot.farthest(self.motion.positions[-1])
+        if self.elapsed - age >= self.plan.duration:
+            distance, joint = robot.farthest(self.plan.positions[-1])
             found = f"{joint} {distance:.3f} rad away from it" + ("" if robot.is_still else ", moving")
         patience = self.settings.goal_time
         message = f"expected every joint at rest {patience:g} s after the end, got {found}"
@@ -95,8 +111,8 @@ class PathMonitor:
         if seen < 0.0 or (self.awaited and self.elapsed < _DEPARTURE):
             return None  # nothing was heard of the robot since
         # Of the samples the nearest: they are 0.02 s apart, in which no joint moves a tenth of the tolerance.
-        nearest = int(np.searchsorted(self.motion.times, seen))
-        distance, joint = robot.farthest(self.motion.positions[nearest])
+        nearest = int(np.searchsorted(self.plan.times, seen))
+        distance, joint = robot.farthest(self.plan.positions[nearest])
         self._was_away = distance > self.settings.path_tolerance
         if not self._was_away:
             self._away_for = 0.0
@@ -106,4 +122,30 @@ class PathMonitor:
             "not_followed",
             f"expected the robot within {self.settings.path_tolerance:g} rad of the plan, got {joint} "
             f"{distance:.3f} rad away for {self.settings.path_time:g} s: see what the driver says",
+        )
+
+    def last_seam(self, time: float) -> float:
+        """The last time up to another at which the motion may be continued: that of a point of it [s]."""
+        return float(self.plan.times[np.searchsorted(self.plan.times, time + _ROUNDING) - 1])
+
+    def continued(self, seam: float, continuation: Plan) -> Samples:
+        """What the driver is sent of a motion that continues this one.
+
+        Args:
+            seam: When the continuation takes over [s], as `last_seam` found it.
+            continuation: The motion from there on, planned with the same period from the state there.
+
+        Returns:
+            The continuation's samples behind one more, a period before the seam; times count from that one.
+        """
+        period = float(continuation.times[1])
+        before = sample_at(self.plan.motions, np.array([seam - 2.0 * period, seam - period])).positions
+        after = sample_at(continuation.motions, np.array([0.0, period])).positions
+        seams = spline_points(np.concatenate((before, after)), period)
+        samples = continuation.samples
+        return Samples(
+            times=np.concatenate(([0.0], samples.times + period)),
+            positions=np.concatenate((seams.positions, samples.positions[1:])),
+            velocities=np.concatenate((seams.velocities, samples.velocities[1:])),
+            accelerations=np.concatenate((seams.accelerations, samples.accelerations[1:])),
         )

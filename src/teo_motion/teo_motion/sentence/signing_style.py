@@ -1,12 +1,15 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""How signs follow one another: times of holds, pauses and transitions, each with its reason."""
+"""How the robot signs: times of holds, pauses and transitions, sizes, and the posture in which it waits."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields, replace
+from enum import StrEnum
 
+from teo_common.arrays import Array
+from teo_description.humanoid import Humanoid
 from teo_motion.sentence.sentence_form import SentenceForm, SentenceType
 from teo_signs.errors import PlanError
 
@@ -91,3 +94,21 @@ class SigningStyle:
         if form.type != SentenceType.YES_NO_QUESTION:
             return self
         return replace(self, final_hold=max(self.final_hold, self.question_hold))
+
+
+class RestPosture(StrEnum):
+    """Names of the postures."""
+
+    HANGING = "hanging"
+    """Arms hang; out of the way of every sign."""
+    READY = "ready"
+    """Forearms level, hands low before the body, as signers wait for their turn."""
+
+    def of(self, humanoid: Humanoid) -> Array:
+        """Positions of the commanded joints [rad]. Shape (joints,), read-only."""
+        return humanoid.hanging if self is RestPosture.HANGING else humanoid.ready
+
+
+# Ready, because a sentence takes 1.5 s less than from hanging arms and back, and because that is how signers
+# wait when more is to come.
+DEFAULT_REST = RestPosture.READY

@@ -1,13 +1,18 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Answers about the look-up table: `list_signs` and `get_sign`."""
+"""What the executor answers about its table and its queue."""
 
 from __future__ import annotations
 
-from rclpy.node import Node
-from teo_sign_msgs.msg import SignToken
-from teo_sign_msgs.srv import GetSign, ListSigns
+from collections.abc import Callable, Sequence
 
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+from teo_sign_msgs.msg import SignToken
+from teo_sign_msgs.srv import GetSign, ListQueue, ListSigns
+
+from teo_lut_executor.execution.interface import Effect
+from teo_lut_executor.execution.queue import ExecutionQueue
 from teo_lut_executor.node.messages import sign_trajectory
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import Lut
@@ -16,25 +21,38 @@ from teo_signs.sign import gloss_key
 _KINDS = {"lexical": SignToken.KIND_LEXICAL, "letter": SignToken.KIND_LETTER, "number": SignToken.KIND_NUMBER}
 
 
-class SignServices:
-    """Serves `list_signs` and `get_sign` from a table that may change meanwhile.
+class Services:
+    """Serves `list_signs`, `get_sign`, `list_queue` and `clear_queue`; the table may change meanwhile.
 
     Attributes:
         lut: The table.
     """
 
-    def __init__(self, node: Node, lut: Lut) -> None:
+    def __init__(
+        self,
+        node: Node,
+        lut: Lut,
+        queue: ExecutionQueue,
+        *,
+        now: Callable[[], float],
+        carry_out: Callable[[Sequence[Effect]], None],
+    ) -> None:
         """Serve.
 
         Args:
             node: Serves.
             lut: The table.
+            queue: What is listed and cleared.
+            now: Time of the node's clock [s].
+            carry_out: Does what the queue answers.
         """
-        self._node = node
-        self.lut = lut
+        self._node, self.lut, self._queue = node, lut, queue
+        self._now, self._carry_out = now, carry_out
         self._services = (
-            node.create_service(ListSigns, "list_signs", self._on_list),
-            node.create_service(GetSign, "get_sign", self._on_get),
+            node.create_service(ListSigns, "list_signs", self._on_list_signs),
+            node.create_service(GetSign, "get_sign", self._on_get_sign),
+            node.create_service(ListQueue, "list_queue", self._on_list_queue),
+            node.create_service(Trigger, "clear_queue", self._on_clear_queue),
         )
 
     def refresh(self) -> None:
@@ -50,15 +68,28 @@ class SignServices:
         for service in self._services:
             self._node.destroy_service(service)
 
-    def _on_list(self, request: ListSigns.Request, response: ListSigns.Response) -> ListSigns.Response:
+    def _on_list_signs(self, request: ListSigns.Request, response: ListSigns.Response) -> ListSigns.Response:
         self.refresh()
         for problem in _list_signs(self.lut, request, response):
             self._node.get_logger().warning(problem)
         return response
 
-    def _on_get(self, request: GetSign.Request, response: GetSign.Response) -> GetSign.Response:
+    def _on_get_sign(self, request: GetSign.Request, response: GetSign.Response) -> GetSign.Response:
         self.refresh()
         _get_sign(self.lut, request, response)
+        return response
+
+    def _on_list_queue(self, _: ListQueue.Request, response: ListQueue.Response) -> ListQueue.Response:
+        sentences, response.current = self._queue.sentences()
+        response.utterance_ids = [sentence.utterance_id for sentence in sentences]
+        response.sentence_indices = [sentence.index for sentence in sentences]
+        response.texts = [sentence.text for sentence in sentences]
+        return response
+
+    def _on_clear_queue(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        before = self._queue.queued
+        self._carry_out(self._queue.clear(self._now()))
+        response.success, response.message = True, f"{before} sentences forgotten"
         return response
 
 
