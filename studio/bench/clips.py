@@ -26,9 +26,9 @@ from teo_sign_capture.entries.bag_capture import CaptureJob, Settings, capture_b
 from teo_sign_capture.entries.gates import objections
 from teo_sign_capture.entries.sign_entry import Origin, make_sign
 from teo_sign_capture.entries.take import capture_take
-from teo_skeleton_retriever.lifting.lifted_person import lift_clip
 from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 from teo_signs.errors import LutError
+from teo_skeleton_retriever.lifting.lifted_person import lift_clip
 
 _QUALITY = (
     ("place_error_p95_mm", "mm"),

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The manual alphabet: is what a robot plays for a letter most like the recording it was made from?
 
-How they are compared says `teo_sign_authoring.transfer.letter_likeness`.
+How they are compared says `teo_sign_authoring.alphabet.letter_likeness`.
 """
 
 from __future__ import annotations

@@ -15,9 +15,9 @@ import numpy as np
 from report import Figure, spread
 from signs.performed import pictured, script_track
 from teo_common.arrays import Array
-from teo_skeleton_retriever.lifting.lifted_person import lift_clip
-from teo_skeleton_retriever.lifting.hand_axes import palm_axes
 from teo_sign_capture.tracks.skeleton_track import ELBOW, SHOULDER, WRIST, SkeletonTrack
+from teo_skeleton_retriever.lifting.hand_axes import palm_axes
+from teo_skeleton_retriever.lifting.lifted_person import lift_clip
 
 SCRIPTS = ("signing", "face", "crossing", "spelling")
 BODIES = ("woman_average", "man_average", "man_tall")

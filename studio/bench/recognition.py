@@ -29,22 +29,20 @@ from teo_description.robot import Robot
 from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 from teo_sign_authoring.notation.performance import performance
 from teo_sign_authoring.notation.score_schema import Score
-from teo_skeleton_retriever.lifting.lifted_person import lift_clip
-from teo_sign_capture.recognition import MOMENTS, recording_appearance, sign_appearance
-from teo_sign_capture.recognition import SignIndex
+from teo_sign_capture.recognition import MOMENTS, SignIndex, recording_appearance, sign_appearance
 from teo_sign_capture.recordings.recording import open_recording
-from teo_skeleton_retriever.depth.filtered_keypoints import points_of
 from teo_sign_capture.retarget.arm_kinematics import mirrored
 from teo_sign_capture.retarget.robot_motion import free_motion
-from teo_sign_capture.tracks.signer_motion import measure_person
 from teo_sign_capture.tracks.segmentation import the_sign
-from teo_sign_capture.tracks.signer_motion import signer_motion
+from teo_sign_capture.tracks.signer_motion import measure_person, signer_motion
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_sign_capture.tracks.smoothing import smooth_track
 from teo_signs.errors import LutError
 from teo_signs.likeness import nearest_pairs
 from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign import Sign
+from teo_skeleton_retriever.depth.filtered_keypoints import points_of
+from teo_skeleton_retriever.lifting.lifted_person import lift_clip
 from teo_synthetic_signer import Take, TakeOptions
 from teo_synthetic_signer.body.body_shapes import BODIES
 from teo_synthetic_signer.errors import SyntheticError

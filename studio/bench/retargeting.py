@@ -26,7 +26,6 @@ from teo_sign_capture.retarget.arm_kinematics import mirrored
 from teo_sign_capture.retarget.body_map import body_boxes, on_skin
 from teo_sign_capture.retarget.robot_motion import retarget_motion
 from teo_sign_capture.signing_space import MIRROR
-from teo_skeleton_retriever.lifting.hand_axes import finger_bends, in_palm, palm_axes
 from teo_sign_capture.tracks.signer_motion import signer_motion
 from teo_sign_capture.tracks.skeleton_track import (
     EAR,
@@ -39,6 +38,7 @@ from teo_sign_capture.tracks.skeleton_track import (
     SkeletonTrack,
 )
 from teo_signs.sign_schema import Handedness
+from teo_skeleton_retriever.lifting.hand_axes import finger_bends, in_palm, palm_axes
 
 BODIES = ("woman_small", "woman_average", "man_tall", "man_heavy")
 SCRIPTS: tuple[tuple[str, Handedness], ...] = (

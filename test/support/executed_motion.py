@@ -20,7 +20,7 @@ from driver_messages import send
 from queue_world import World
 from teo_common.arrays import Array
 from teo_description.humanoid import load_humanoid
-from teo_lut_executor.execution.events import StopReady, TrajectoryReady
+from teo_lut_executor.execution.interface import StopReady, TrajectoryReady
 from teo_lut_executor.node.messages import to_stop, to_trajectory
 from teo_motion.sentence.plan import Plan
 from teo_names import COMMANDED_JOINTS, HOME, joint_limits, urdf_text

@@ -34,7 +34,7 @@ from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import State
 from teo_sign_languages import Language
 from teo_signs.errors import LutError, PlanError
-from teo_signs.export.sign_motion import SignMotion
+from teo_signs.export import SignMotion
 from teo_signs.lexicon import DEFAULT_STANDING, Lexicon, SignedToken
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Standing

@@ -18,7 +18,7 @@ from nodes.driver_rate import PERIOD, SECOND, home, wave
 from report import Figure
 from teo_names import COMMANDED_JOINTS, LEG_JOINTS, joint_limits
 from teo_sim_driver import JointFollower, Mode, Refusal, Rules, TrajectoryError
-from teo_sim_driver.checking.intake import MOST_WAITING, Intake
+from teo_sim_driver.checking.validation import MOST_WAITING, Intake
 
 _POINTS = 20
 _STEP = round(PERIOD * SECOND)  # [ns]

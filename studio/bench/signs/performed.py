@@ -21,8 +21,7 @@ from teo_sign_authoring.notation.performance import performance
 from teo_sign_authoring.notation.score_file import default_scores_directory, read_scores
 from teo_sign_authoring.notation.score_schema import Score
 from teo_sign_capture.recordings.pose_file import Points, PoseClip
-from teo_sign_capture.tracks.skeleton_track import in_body_axes
-from teo_sign_capture.tracks.skeleton_track import Keypoints, SkeletonTrack
+from teo_sign_capture.tracks.skeleton_track import Keypoints, SkeletonTrack, in_body_axes
 from teo_synthetic_signer.body.body_shapes import BODIES
 from teo_synthetic_signer.body.signer import Signer
 from teo_synthetic_signer.errors import SyntheticError

@@ -49,8 +49,7 @@ def export(
     from teo_description.robot import Robot
     from teo_motion.planner import Planner, sign_motion
     from teo_motion.sentence.signing_style import RestPosture
-    from teo_signs.export.play_motion2 import play_motion2_parameters
-    from teo_signs.export.playback_thread import playback_mask, save_playback_tables
+    from teo_signs.export import play_motion2_parameters, playback_mask, save_playback_tables
     from teo_signs.look_up_table import Lut
 
     try:

@@ -25,11 +25,9 @@ from teo_lut_executor.cli.options import (
 )
 from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import LutError
-from teo_signs.handshapes import Handshapes
-from teo_signs.likeness import Difference, nearest_pairs
+from teo_signs.likeness import Difference, Handshapes, nearest_pairs
 from teo_signs.look_up_table import Lut
-from teo_signs.motion_hash import motion_hash
-from teo_signs.sign import Sign
+from teo_signs.sign import Sign, motion_hash
 from teo_signs.sign_schema import STANDINGS
 
 _output = Console(highlight=False)

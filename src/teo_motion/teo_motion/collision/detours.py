@@ -16,8 +16,7 @@ from itertools import pairwise, product
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_description.hand_contact import TOUCH, thumb_gaps
-from teo_description.hand_geometry import HandTable
+from teo_description.hand_geometry import TOUCH, HandTable, thumb_gaps
 from teo_motion.sentence.composition import ARMS, HANDS, Route
 from teo_motion.trajectory.limits import MotionLimits
 

@@ -16,7 +16,7 @@ from teo_common.arrays import Array
 from teo_description.robot import Robot
 from teo_motion.planner import DEFAULT_PERIOD, Planner
 from teo_motion.sentence.plan import Plan, sample_at
-from teo_motion.sentence.rhythm import SigningStyle
+from teo_motion.sentence.signing_style import SigningStyle
 from teo_sign_capture.entries.gates import Verdict, accepted_standing, judge, objections
 from teo_sign_capture.entries.take import SignTake
 from teo_sign_capture.entries.take_combination import Combined, combine

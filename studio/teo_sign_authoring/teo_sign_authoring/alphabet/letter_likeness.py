@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from teo_common.arrays import Array
+from teo_common.dynamic_programming import warp
 from teo_description.hand_geometry import HandGeometry
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
@@ -24,12 +25,11 @@ from teo_motion.sentence.posture_choice import postures_of
 from teo_sign_authoring.alphabet.letter_clips import LetterClip, find_stroke
 from teo_sign_authoring.alphabet.letters import read_alphabet
 from teo_sign_capture.signing_space import finger_rows
-from teo_common.dynamic_programming import warp
-from teo_skeleton_retriever.lifting.hand_axes import KNUCKLES, THUMB, palm_axes
 from teo_sign_languages import Language
 from teo_signs.likeness import SEEN_ANGLE, SEEN_LENGTH
 from teo_signs.sign import Sign
 from teo_signs.tokens import Kind, Token
+from teo_skeleton_retriever.lifting.hand_axes import KNUCKLES, THUMB, palm_axes
 
 # [m] Movement is seen where a difference in place is not. Between half and a third of a finger's thickness
 # letters pass for their own recording alike; at a whole one still letters pass for those that differ by

@@ -24,15 +24,13 @@ from teo_common.arrays import Array
 from teo_description.humanoid import Humanoid
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
-from teo_motion.sentence.rhythm import SigningStyle
+from teo_motion.sentence.signing_style import SigningStyle
 from teo_motion.trajectory.limits import MotionLimits
 from teo_sign_authoring.easing.linear_program import BEYOND, LinearProgram
 from teo_sign_authoring.easing.word_tolerance import WordTolerance
-from teo_sign_capture.recognition import sign_appearance
-from teo_sign_capture.recognition import SignIndex, distance_between
+from teo_sign_capture.recognition import SignIndex, distance_between, sign_appearance
 from teo_signs.errors import PlanError
-from teo_signs.sign import with_alternatives
-from teo_signs.sign import Sign
+from teo_signs.sign import Sign, with_alternatives
 from teo_signs.tokens import Token
 
 # [rad] Most by which a joint changes in each program.

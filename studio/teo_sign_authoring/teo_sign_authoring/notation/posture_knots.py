@@ -15,8 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_description.hand_geometry import TOUCH, thumb_gaps, with_clear_thumb
-from teo_description.hand_geometry import HandGeometry, hand_table
+from teo_common.dynamic_programming import cheapest_path
+from teo_description.hand_geometry import TOUCH, HandGeometry, hand_table, thumb_gaps, with_clear_thumb
 from teo_description.humanoid import Side
 from teo_description.robot import Robot
 from teo_sign_authoring.notation.score_schema import Hands
@@ -36,7 +36,6 @@ from teo_sign_capture.retarget.arm_trajectory import search_arms
 from teo_sign_capture.retarget.hand_goals import HandGoals
 from teo_sign_capture.retarget.hand_motion import axis_shares
 from teo_sign_capture.signing_space import finger_rows
-from teo_common.dynamic_programming import cheapest_path
 
 _WEIGHTS = ArmWeights(
     # 10 cm beside a place count as much as 80 deg of orientation where a hand meets something, as 29 deg in

@@ -32,8 +32,7 @@ from teo_sign_authoring.notation.score_retarget import posture_figures, posture_
 from teo_sign_authoring.notation.score_schema import Score
 from teo_sign_authoring.transfer.entry_postures import entry_postures
 from teo_sign_capture.entries.batch import workers
-from teo_sign_capture.signing_space import finger_rows
-from teo_sign_capture.signing_space import WRITTEN_FOR
+from teo_sign_capture.signing_space import WRITTEN_FOR, finger_rows
 from teo_sign_languages import Language, load_language
 from teo_signs.errors import LutError, PlanError
 from teo_signs.look_up_table import Lut

@@ -26,9 +26,9 @@ from teo_sign_authoring.alphabet.spelling_arm import fit_arm, shift_off_face, sp
 from teo_sign_authoring.alphabet.spelling_hand import fit_robot_hand
 from teo_sign_authoring.cli.capture_table import demonstration_main, letters_main
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
-from teo_skeleton_retriever.lifting.hand_axes import palm_axes
 from teo_sign_languages import DEFAULT_LANGUAGE, Language, LetterClips, load_language
 from teo_signs.look_up_table import Lut, LutError
+from teo_skeleton_retriever.lifting.hand_axes import palm_axes
 
 
 @pytest.fixture(scope="module")

@@ -204,7 +204,7 @@ def _examine_graph(node: Any, names: Sequence[str]) -> list[_Section]:
     """Examine the nodes and topics that a node knows, itself left out.
 
     Args:
-        node: It knows the graph (see `teo_ros2cli.graph.cli_node.settle`).
+        node: It knows the graph (see `teo_ros2cli.graph.discovery.settle`).
         names: Full names of the nodes of others.
     """
     own = node.get_name()
