@@ -26,12 +26,10 @@ from teo_sign_msgs.msg import SkeletonArray
 
 from report import Figure, percentiles
 from teo_common.node_process import run_node
-from teo_skeleton_retriever.bags.bag_images import BagImages
+from teo_skeleton_retriever.bags.bag_images import BagImages, choose_topics
 from teo_skeleton_retriever.bags.bag_reader import Bag
-from teo_skeleton_retriever.bags.topic_choice import choose_topics
 from teo_skeleton_retriever.camera.camera_model import CameraModel
-from teo_skeleton_retriever.camera.image_messages import CAMERA_INFO_TOPIC, COLOR_TOPIC, DEPTH_TOPIC
-from teo_skeleton_retriever.camera.rgbd_image import RgbdImage
+from teo_skeleton_retriever.camera.rgbd_image import CAMERA_INFO_TOPIC, COLOR_TOPIC, DEPTH_TOPIC, RgbdImage
 from teo_skeleton_retriever.detectors import make_detector
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D

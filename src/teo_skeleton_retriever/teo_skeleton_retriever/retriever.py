@@ -7,8 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray, median
-from teo_skeleton_retriever.depth.depth_lookup import DepthLookup
-from teo_skeleton_retriever.depth.viewing_rays import viewing_rays
+from teo_skeleton_retriever.depth.depth_lookup import DepthLookup, viewing_rays
 from teo_skeleton_retriever.detectors.detector import DetectionFrame
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D, as_body_25
@@ -21,8 +20,7 @@ from teo_skeleton_retriever.layouts.skeleton_3d import (
 )
 from teo_skeleton_retriever.person_estimator import PersonEstimator
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
-from teo_skeleton_retriever.tracking.person_tracker import PersonTracker, TrackerSettings
-from teo_skeleton_retriever.tracking.signer_choice import SignerChoice
+from teo_skeleton_retriever.tracking.person_tracker import PersonTracker, SignerChoice, TrackerSettings
 
 __all__ = ["DetectionFrame", "KeypointStatus", "Keypoints3D", "Retriever", "RetrieverParameters", "Skeleton"]
 

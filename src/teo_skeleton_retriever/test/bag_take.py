@@ -16,7 +16,7 @@ from rosbags.rosbag2 import StoragePlugin
 from rosbags.rosbag2 import Writer as Ros2Writer
 from rosbags.typesys import Stores, get_typestore
 
-from teo_skeleton_retriever.detectors.openpose.openpose_files import OpenPoseFrame
+from teo_skeleton_retriever.detectors.openpose_files import OpenPoseFrame
 
 COLOR, DEPTH = "/camera/color/image_raw", "/camera/aligned_depth_to_color/image_raw"
 INFO = "/camera/color/camera_info"

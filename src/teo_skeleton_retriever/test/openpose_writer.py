@@ -10,7 +10,7 @@ import tempfile
 from pathlib import Path
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_skeleton_retriever.detectors.openpose.openpose_files import PARTS, VERSION, OpenPoseFrame
+from teo_skeleton_retriever.detectors.openpose_files import PARTS, VERSION, OpenPoseFrame
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
 DIGITS = 6

@@ -9,7 +9,7 @@ import time
 import numpy as np
 
 from report import Figure, percentiles
-from teo_skeleton_retriever.compat.limb_ipopt import IpoptLimbSolver
+from teo_skeleton_retriever.compat.original_retriever import IpoptLimbSolver
 from teo_skeleton_retriever.depth.limb_solver import FastLimbSolver, LimbChain
 
 LIMBS = 200

@@ -18,7 +18,7 @@ from teo_skeleton_retriever.detectors.detector import DetectionFrame
 from teo_skeleton_retriever.layouts.layout import BODY_25, FACE_70, HAND_21
 from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton, body_frame
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
-from teo_skeleton_retriever.tracking.signer_choice import SignerChoice
+from teo_skeleton_retriever.tracking.person_tracker import SignerChoice
 
 _ROWS = np.array([BODY_25.index[name] for name in FROM_BODY_25])
 _SOURCES = np.array([SKELETON_STD.index[tag] for tag in FROM_BODY_25.values()])

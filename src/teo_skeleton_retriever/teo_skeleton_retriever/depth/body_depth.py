@@ -12,8 +12,7 @@ import numpy as np
 
 from teo_skeleton_retriever.arrays import BoolArray, FloatArray, median
 from teo_skeleton_retriever.depth.arm_depth import Arm, ArmSolution, ArmSolver
-from teo_skeleton_retriever.depth.depth_lookup import Surfaces
-from teo_skeleton_retriever.depth.filtered_keypoints import points_of
+from teo_skeleton_retriever.depth.depth_lookup import Surfaces, ViewingRays
 from teo_skeleton_retriever.depth.girdle_depth import girdle_depths
 from teo_skeleton_retriever.depth.skin import (
     BODY_CAPS,
@@ -22,7 +21,6 @@ from teo_skeleton_retriever.depth.skin import (
     FOREARM_RADIUS,
     along_ray,
 )
-from teo_skeleton_retriever.depth.viewing_rays import ViewingRays
 from teo_skeleton_retriever.detectors.mediapipe.calibration import body_sigma, elbow_error
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_layout import ARMS, GIRDLE, ROW
@@ -174,7 +172,7 @@ class BodyDepth:
         if not self._parameters.skin_offset:
             return np.zeros(_N), np.zeros(_N)
         radius = BODY_DEPTHS * size.scale
-        points = points_of(before)
+        points = before.points
         limb = np.full((_N, 3), np.nan)
         limb[_LIMBS[:, 0]] = points[_LIMBS[:, 1]] - points[_LIMBS[:, 0]]
         behind = along_ray(radius, limb, points, BODY_CAPS)

@@ -11,10 +11,9 @@ import pytest
 from mcap.reader import make_reader
 from rosbags.rosbag2 import StoragePlugin
 
-from teo_skeleton_retriever.bags.bag_images import BagImages
+from teo_skeleton_retriever.bags.bag_images import BagImages, choose_topics
 from teo_skeleton_retriever.bags.bag_reader import Bag
-from teo_skeleton_retriever.bags.topic_choice import choose_topics
-from teo_skeleton_retriever.camera.image_messages import color_of, stamp_of
+from teo_skeleton_retriever.camera.rgbd_image import color_of, stamp_of
 from teo_skeleton_retriever.errors import RetrieverError
 
 IMAGES = 10

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from teo_skeleton_retriever.camera.raw_image import COLOR_ENCODINGS, decode_color
+from teo_skeleton_retriever.camera.image_decoding import COLOR_ENCODINGS, decode_color
 from teo_skeleton_retriever.errors import RetrieverError
 
 RGB = np.random.default_rng(0).integers(0, 256, (6, 8, 3), dtype=np.uint8)

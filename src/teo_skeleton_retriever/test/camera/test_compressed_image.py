@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from teo_skeleton_retriever.camera.compressed_image import (
+from teo_skeleton_retriever.camera.image_decoding import (
     decode_compressed_color,
     decode_compressed_depth,
     decode_rvl,

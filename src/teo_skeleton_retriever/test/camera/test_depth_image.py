@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from teo_skeleton_retriever.camera.raw_image import decode_depth, metres
+from teo_skeleton_retriever.camera.image_decoding import decode_depth, metres
 from teo_skeleton_retriever.errors import RetrieverError
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from sensor_msgs.msg import CameraInfo, RegionOfInterest
 
-from teo_skeleton_retriever.camera.image_messages import camera_of, color_of, depth_of, shows_depth, stamp_of
+from teo_skeleton_retriever.camera.rgbd_image import camera_of, color_of, depth_of, shows_depth, stamp_of
 from teo_skeleton_retriever.errors import RetrieverError
 
 

@@ -26,10 +26,9 @@ import numpy as np
 import pytest
 
 from teo_skeleton_retriever.camera.camera_model import CameraModel
-from teo_skeleton_retriever.compat.limb_ipopt import CONVERGED_OPTIONS, IpoptLimbSolver
 from teo_skeleton_retriever.compat.original_parameters import OriginalParameters
+from teo_skeleton_retriever.compat.original_retriever import CONVERGED_OPTIONS, IpoptLimbSolver, OriginalTrack
 from teo_skeleton_retriever.compat.original_skeleton import SKELETON_STD, OriginalSkeleton, body_planes
-from teo_skeleton_retriever.compat.original_track import OriginalTrack
 from teo_skeleton_retriever.depth.limb_solver import FastLimbSolver, LimbChain
 
 INDEX = SKELETON_STD.index

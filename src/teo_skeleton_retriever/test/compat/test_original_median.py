@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from teo_skeleton_retriever.compat.original_track import OriginalMedian
+from teo_skeleton_retriever.compat.original_retriever import OriginalMedian
 
 values = st.lists(st.floats(-10, 10), min_size=1, max_size=30)
 

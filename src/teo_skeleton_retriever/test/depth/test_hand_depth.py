@@ -11,7 +11,7 @@ from capsule_person import imagined_shape, pose
 from scipy.spatial.transform import Rotation
 
 from teo_skeleton_retriever.depth.depth_lookup import Surfaces
-from teo_skeleton_retriever.depth.hand_depth import HandFit, HandView, fit_hands
+from teo_skeleton_retriever.depth.hand_shape import HandFit, HandView, fit_hands
 from teo_skeleton_retriever.depth.skin import HAND_DEPTHS
 
 HAND = pose((-0.4, -0.2, -0.1), (0.25, 0.05, -0.2), curl=0.3).right_hand

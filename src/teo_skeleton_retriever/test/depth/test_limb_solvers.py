@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from teo_skeleton_retriever.compat.limb_ipopt import CONVERGED_OPTIONS, IpoptLimbSolver
+from teo_skeleton_retriever.compat.original_retriever import CONVERGED_OPTIONS, IpoptLimbSolver
 from teo_skeleton_retriever.depth.limb_solver import FastLimbSolver, LimbChain
 from teo_skeleton_retriever.errors import RetrieverError
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from capsule_person import CAMERA
 
-from teo_skeleton_retriever.depth.viewing_rays import viewing_rays
+from teo_skeleton_retriever.depth.depth_lookup import viewing_rays
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import as_body_25

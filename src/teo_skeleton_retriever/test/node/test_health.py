@@ -8,8 +8,7 @@ import pytest
 
 from teo_common.diagnostics import Level
 from teo_skeleton_retriever.errors import RetrieverError
-from teo_skeleton_retriever.node.health import Problem, assess
-from teo_skeleton_retriever.node.stream_stats import Result, StreamStats
+from teo_skeleton_retriever.node.health import Problem, Result, StreamStats, assess
 
 TOPICS = {"color": "/c", "depth": "/d", "camera_info": "/i"}
 

@@ -7,7 +7,7 @@ from std_msgs.msg import Header
 from visualization_msgs.msg import Marker
 
 from teo_skeleton_retriever.layouts.skeleton_3d import SKELETON_PARTS, Keypoints3D, Skeleton
-from teo_skeleton_retriever.output.markers import marker_array
+from teo_skeleton_retriever.output.messages import marker_array
 
 
 def person(track_id: int, known: list[int], is_signer: bool = False) -> Skeleton:

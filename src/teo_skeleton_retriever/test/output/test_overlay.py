@@ -9,8 +9,7 @@ import pytest
 from teo_skeleton_retriever.camera.rgbd_image import RgbdImage
 from teo_skeleton_retriever.image_retriever import Retrieved
 from teo_skeleton_retriever.layouts.skeleton_3d import SKELETON_PARTS, Keypoints3D, KeypointStatus, Skeleton
-from teo_skeleton_retriever.output.overlay import STATUS_COLORS, Overlay
-from teo_skeleton_retriever.output.overlay_video import overlay_video
+from teo_skeleton_retriever.output.overlay import STATUS_COLORS, Overlay, overlay_video
 
 
 def image(scale: int = 1, stamp: float = 1.0) -> RgbdImage:

@@ -15,10 +15,10 @@ import pytest
 from drawn_maps import STRIDE, draw, person
 from onnx import TensorProto, helper, numpy_helper
 
+from teo_skeleton_retriever.detectors.openpose_onnx_detector import OpenPoseOnnxDetector
+from teo_skeleton_retriever.detectors.part_affinity import BODY_25_MODEL, COCO_18_MODEL, PafModel
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25
-from teo_skeleton_retriever.paf.openpose_onnx_detector import OpenPoseOnnxDetector
-from teo_skeleton_retriever.paf.pose_network import BODY_25_MODEL, COCO_18_MODEL, PafModel
 
 NET = (320, 240)
 

@@ -13,20 +13,18 @@ from drawn_maps import draw, person
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from teo_skeleton_retriever.paf.part_affinity import (
+from teo_skeleton_retriever.detectors.part_affinity import (
+    BODY_25_MODEL,
     CAREFUL,
+    COCO_18_MODEL,
     GENEROUS,
     MOST_PER_PART,
+    PAF_MODELS,
+    PafModel,
     PafThresholds,
     assemble,
     find_limbs,
     find_peaks,
-)
-from teo_skeleton_retriever.paf.pose_network import (
-    BODY_25_MODEL,
-    COCO_18_MODEL,
-    PAF_MODELS,
-    PafModel,
 )
 
 SIZE = (656, 368)

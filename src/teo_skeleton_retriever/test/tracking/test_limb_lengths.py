@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from teo_skeleton_retriever.compat.original_track import OriginalLimbLength
+from teo_skeleton_retriever.compat.original_retriever import OriginalLimbLength
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.tracking.body_size import LimbLength, LimbLengthSettings
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from teo_skeleton_retriever.errors import RetrieverError
-from teo_skeleton_retriever.tracking.signer_choice import SignerChoice
+from teo_skeleton_retriever.tracking.person_tracker import SignerChoice
 
 FAR_AHEAD = np.array([0.0, 0.0, 2.5])
 NEAR_ASIDE = np.array([0.8, 0.0, 1.5])

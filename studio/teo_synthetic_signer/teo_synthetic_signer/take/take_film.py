@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from teo_skeleton_retriever.errors import RetrieverError
-from teo_skeleton_retriever.output.overlay_video import overlay_video
+from teo_skeleton_retriever.output.overlay import overlay_video
 from teo_synthetic_signer.errors import SyntheticError
 from teo_synthetic_signer.take.truth import SyntheticFrame
 

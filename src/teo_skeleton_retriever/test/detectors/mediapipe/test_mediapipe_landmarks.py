@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from teo_skeleton_retriever.detectors.mediapipe.mediapipe_landmarks import (
+from teo_skeleton_retriever.detectors.mediapipe.mediapipe_detector import (
     BODY_25_FROM_POSE,
     FACE_70_FROM_MESH,
     person_from_holistic,

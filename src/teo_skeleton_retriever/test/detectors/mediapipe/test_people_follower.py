@@ -11,8 +11,12 @@ import numpy as np
 import pytest
 
 from teo_skeleton_retriever.detectors.mediapipe.holistic_graph import HolisticLandmarks
-from teo_skeleton_retriever.detectors.mediapipe.people_follower import LOOK_EVERY, PeopleFollower
-from teo_skeleton_retriever.detectors.mediapipe.people_graph import VIEWS, Sighting
+from teo_skeleton_retriever.detectors.mediapipe.people_follower import (
+    LOOK_EVERY,
+    VIEWS,
+    PeopleFollower,
+    Sighting,
+)
 
 IMAGE = np.zeros((480, 640, 3), dtype=np.uint8)
 SHOULDERS_AND_HIPS = {11: (0.03, 0.1), 12: (-0.03, 0.1), 23: (0.02, 0.4), 24: (-0.02, 0.4)}

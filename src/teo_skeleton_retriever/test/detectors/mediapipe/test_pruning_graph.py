@@ -8,7 +8,7 @@ import pytest
 from google.protobuf import text_format
 from mediapipe.framework import calculator_pb2
 
-from teo_skeleton_retriever.detectors.mediapipe.pruning import only_for
+from teo_skeleton_retriever.detectors.mediapipe.holistic_configuration import only_for
 from teo_skeleton_retriever.errors import RetrieverError
 
 GRAPH = """

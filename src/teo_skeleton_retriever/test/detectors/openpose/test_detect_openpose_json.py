@@ -14,12 +14,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from openpose_writer import format_frame, frame_path, write_frame
 
-from teo_skeleton_retriever.detectors.openpose.openpose_files import OpenPoseFrame
-from teo_skeleton_retriever.detectors.openpose.openpose_json_detector import (
+from teo_skeleton_retriever.detectors.openpose_files import OpenPoseFrame
+from teo_skeleton_retriever.detectors.openpose_json_detector import (
     KeypointScale,
     OpenPoseJsonDetector,
+    ReplayDetector,
 )
-from teo_skeleton_retriever.detectors.openpose.replay_detector import ReplayDetector
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from openpose_writer import format_frame, frame_path, write_frame
 
-from teo_skeleton_retriever.detectors.openpose.openpose_files import OpenPoseFrame, parse_frame, read_frame
+from teo_skeleton_retriever.detectors.openpose_files import OpenPoseFrame, parse_frame, read_frame
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
