@@ -39,9 +39,7 @@ class CompatRetriever:
             original: Of the processing.
         """
         self._original = original or OriginalParameters()
-        self._signer = SignerChoice(
-            "central" if parameters.signer_rule == "central" else "nearest", parameters.signer_patience
-        )
+        self._signer = SignerChoice(parameters.signer_rule, parameters.signer_patience)
         self._camera: CameraModel | None = None
         self._retriever: OriginalRetriever | None = None
 

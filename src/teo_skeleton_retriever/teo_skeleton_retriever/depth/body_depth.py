@@ -30,7 +30,6 @@ from teo_skeleton_retriever.tracking.keypoint_filter import FilterOutput
 
 _N = len(BODY_25)
 _LEGS = [[ROW[f"{side}{joint}"] for joint in ("Hip", "Knee", "Ankle")] for side in ("R", "L")]
-_TRUNK = np.array([ROW[name] for name in ("Nose", "MidHip", "RHip", "LHip")])
 _HEAD = np.array([ROW[name] for name in ("Nose", "REye", "LEye")])
 # Joints at the ends of limbs, and the limbs' other ends. A wrist lies in the middle: the hand goes on.
 _LIMBS = np.array(
@@ -42,7 +41,6 @@ _LIMBS = np.array(
 )
 
 _SKIN_SIGMA = 0.008  # [m] how far the skin is from a tube around the limb
-_HIDDEN = 0.06  # [m] a trunk does not come nearer by this from image to image: something hides it
 _ACROSS = np.full(_N, 0.012)  # [m] how far the detector's keypoints are from the joints
 _ACROSS[[ROW[f"{side}Elbow"] for side in "LR"]] = 0.02
 _ACROSS[[ROW[f"{side}Wrist"] for side in "LR"]] = 0.025
@@ -139,7 +137,6 @@ class BodyDepth:
             row = ARMS[side][2]
             rays[row], across[row] = view.ray, _HAND_ACROSS
             depth[row], sigma[row] = view.depth, view.sigma
-        _reject_hidden_trunk(depth, before)
         replaced = np.zeros(_N, dtype=bool)
         girdle = girdle_depths(
             surfaces.part(GIRDLE),
@@ -250,14 +247,6 @@ def _part_across(forearm: FloatArray, depth: float, size: BodySize) -> float:
     """
     seen = math.dist(*forearm) * depth / size.length("forearm")[0]
     return seen if math.isfinite(seen) else 1.0
-
-
-def _reject_hidden_trunk(depth: FloatArray, before: FilterOutput) -> None:
-    """Set depths of the trunk to NaN that are too near for its movement: something hides it there."""
-    with np.errstate(invalid="ignore"):
-        nearer = before.depth - depth > np.maximum(_HIDDEN, 4.0 * before.sigma[:, 2])
-    rows = _TRUNK[nearer[_TRUNK]]
-    depth[rows] = np.nan
 
 
 def _head(depth: FloatArray) -> float:

@@ -179,12 +179,6 @@ def test_topics_that_are_missing_or_not_clear_are_told(tmp_path):
         choose_topics(bag)
 
 
-def test_images_before_the_first_camera_info_are_used(tmp_path):
-    stored = list(bag_take.messages(5))
-    late = [one for one in stored if one[0] != bag_take.INFO] + [stored[-3]]
-    assert len(images_of(bag_take.write_ros2(tmp_path / "take", late))) == 5
-
-
 def test_images_that_cannot_be_used_are_counted_with_a_reason(tmp_path):
     stored = list(bag_take.messages(5))
     stored[4] = (*stored[4][:3], take.color_message(stored[4][2], encoding="odd"))

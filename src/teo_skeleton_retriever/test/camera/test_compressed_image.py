@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import struct
-import zlib
 
 import cv2
 import numpy as np
@@ -63,28 +62,11 @@ def test_a_png_gives_back_its_colours_and_a_jpeg_nearly():
     assert np.abs(decode_compressed_color(jpeg).astype(int) - SCENE).mean() < 3
 
 
-def test_a_grey_jpeg_becomes_three_channels():
-    assert decode_compressed_color(cv2.imencode(".jpg", GRADIENT)[1].tobytes()).shape == (40, 60, 3)
-
-
 @pytest.mark.parametrize("data", [b"", b"\x00" * 100, png(SCENE)[:40], b"\x89PNG\r\n\x1a\n"])
 def test_what_is_no_picture_is_refused(data):
     with pytest.raises(RetrieverError) as refused:
         decode_compressed_color(data)
     assert refused.value.code == "not_an_image"
-
-
-def test_a_picture_that_claims_to_be_gigantic_is_refused():
-    chunk = b"IHDR" + struct.pack(">IIBBBBB", 1 << 20, 1 << 20, 8, 2, 0, 0, 0)
-    data = (
-        b"\x89PNG\r\n\x1a\n"
-        + struct.pack(">I", 13)
-        + chunk
-        + struct.pack(">I", zlib.crc32(chunk))
-        + bytes(50)
-    )
-    with pytest.raises(RetrieverError):
-        decode_compressed_color(data)
 
 
 @pytest.mark.parametrize(
@@ -94,12 +76,6 @@ def test_millimetres_as_png_come_back_in_metres(message_format):
     depth = np.array([[0, 1, 500], [1500, 40000, 65535]], dtype=np.uint16)
     got = decode_compressed_depth(HEADER + png(depth), message_format)
     np.testing.assert_allclose(got, [[np.nan, 0.001, 0.5], [1.5, 40.0, 65.535]], rtol=1e-6)
-
-
-def test_depth_sent_by_the_plugin_for_colour_is_understood():
-    depth = np.array([[0, 1500]], dtype=np.uint16)
-    got = decode_compressed_depth(png(depth), "16UC1; png compressed ")
-    np.testing.assert_allclose(got, [[np.nan, 1.5]], rtol=1e-6)
 
 
 @pytest.mark.parametrize("codec", ["png", "rvl"])

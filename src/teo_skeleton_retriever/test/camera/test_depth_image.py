@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from teo_skeleton_retriever.camera.image_decoding import decode_depth, metres
+from teo_skeleton_retriever.camera.image_decoding import decode_depth
 from teo_skeleton_retriever.errors import RetrieverError
 
 
@@ -35,11 +35,6 @@ def test_byte_order_and_padding_are_heeded(encoding: str) -> None:
     np.testing.assert_allclose(depth, rows.astype(float) * scale, rtol=1e-6)
 
 
-def test_the_last_row_may_come_without_its_padding() -> None:
-    data = np.array([7, 0, 9], dtype="<u2").tobytes()
-    assert decode_depth(data, width=1, height=2, encoding="16UC1", step=4)[1, 0] == pytest.approx(0.009)
-
-
 @pytest.mark.parametrize(
     ("width", "height", "encoding", "step", "code"),
     [
@@ -59,15 +54,3 @@ def test_sizes_that_do_not_fit_are_refused(
     with pytest.raises(RetrieverError) as caught:
         decode_depth(bytes(8), width=width, height=height, encoding=encoding, step=step)
     assert caught.value.code == code
-
-
-@pytest.mark.parametrize("image", [np.zeros((2, 2), np.uint8), np.zeros((2, 2, 3), np.float32)])
-def test_what_is_no_depth_image_is_refused(image: np.ndarray) -> None:
-    with pytest.raises(RetrieverError):
-        metres(image)
-
-
-def test_the_image_given_is_not_changed() -> None:
-    image = np.zeros((2, 2), np.float32)
-    metres(image)
-    assert (image == 0.0).all()

@@ -6,7 +6,6 @@ import numpy as np
 from capsule_person import CAMERA
 
 from teo_skeleton_retriever.depth.depth_lookup import viewing_rays
-from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import as_body_25
 
@@ -19,18 +18,8 @@ def test_keypoints_that_are_unsure_absent_or_outside_the_image_are_not_seen() ->
     assert seen.confidence.tolist() == [0.9, 0.0, 0.0, 0.0]
 
 
-def test_absent_keypoints_are_not_seen_whatever_is_asked() -> None:
-    assert not viewing_rays(np.zeros((3, 3)), CAMERA, 0.0).seen.any()
-
-
 def test_logits_for_confidences_stay_within_0_and_1() -> None:
     assert viewing_rays(np.array([[10.0, 10.0, 8.3]]), CAMERA, 0.3).confidence.tolist() == [1.0]
-
-
-def test_keypoints_that_are_not_believed_are_as_not_seen() -> None:
-    seen = viewing_rays(np.tile([10.0, 10.0, 0.9], (2, 1)), CAMERA, 0.3).only(np.array([True, False]))
-    assert seen.seen.tolist() == [True, False]
-    assert np.isnan(seen.pixels[1]).all()
 
 
 def test_bodies_of_every_layout_have_the_same_arms() -> None:
@@ -45,12 +34,3 @@ def test_bodies_of_every_layout_have_the_same_arms() -> None:
 def test_the_top_of_the_head_is_no_nose() -> None:
     body = np.full((15, 3), 5.0)
     assert not as_body_25(body)[BODY_25.index["Nose"]].any()
-
-
-def test_a_body_of_another_layout_is_refused() -> None:
-    try:
-        as_body_25(np.zeros((17, 3)))
-    except RetrieverError as error:
-        assert error.code == "wrong_layout"
-    else:
-        raise AssertionError("expected a RetrieverError")

@@ -10,7 +10,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from teo_skeleton_retriever.compat.original_skeleton import body_planes
 from teo_skeleton_retriever.layouts.skeleton_3d import BodyFrame, body_frame
 
 # Someone who faces the camera, upright, at 2 m, in its optical frame: x right, y down, z away.
@@ -54,14 +53,6 @@ def test_in_the_body_frame_it_does_not_matter_where_a_person_stands(move: tuple[
     assert np.linalg.det(moved.rotation) == pytest.approx(1.0)
 
 
-@given(moves)
-@settings(max_examples=30, deadline=None)
-def test_there_and_back_again(move: tuple[float, ...]) -> None:
-    frame = frame_of(FACING)
-    points = np.reshape(move, (2, 3))
-    np.testing.assert_allclose(frame.to_camera(frame.from_camera(points)), points, atol=1e-12)
-
-
 @pytest.mark.parametrize("hips", [{"left_hip": None}, {"right_hip": NOWHERE}])
 def test_without_hips_it_stands_on_the_shoulders(hips: dict[str, np.ndarray | None]) -> None:
     frame = frame_of({**FACING, **hips})
@@ -80,36 +71,3 @@ def test_without_hips_it_stands_on_the_shoulders(hips: dict[str, np.ndarray | No
 )
 def test_points_that_make_no_frame_give_none(changes: dict[str, np.ndarray]) -> None:
     assert body_frame(**{**FACING, **changes}) is None
-
-
-def planes_points(**changes: np.ndarray) -> dict[str, np.ndarray]:
-    points = {
-        "left_shoulder": FACING["left_shoulder"],
-        "right_shoulder": FACING["right_shoulder"],
-        "shoulder_center": np.array([0.0, -0.3, 2.0]),
-        "hip_center": np.array([0.0, 0.2, 2.0]),
-    }
-    return {**points, **changes}
-
-
-def test_planes_have_their_normals_to_the_left_upwards_and_forwards() -> None:
-    planes = body_planes(**planes_points())
-    np.testing.assert_allclose(planes, [[1, 0, 0], [0, -1, 0], [0, 0, -1]], atol=1e-12)
-
-
-def test_a_plane_stays_while_its_keypoints_are_not_seen() -> None:
-    before = body_planes(**planes_points())
-    after = body_planes(**planes_points(left_shoulder=NOWHERE, hip_center=NOWHERE), before=before)
-    np.testing.assert_array_equal(after, before)
-    tilted = np.array([0.1, 0.2, 2.0])
-    half = body_planes(**planes_points(left_shoulder=NOWHERE, hip_center=tilted), before=before)
-    np.testing.assert_array_equal(half.sagittal, before.sagittal)
-    assert half.transverse[0] != 0.0
-    np.testing.assert_allclose(half.coronal, np.cross(half.sagittal, half.transverse))
-
-
-def test_planes_never_seen_are_not_a_number() -> None:
-    planes = body_planes(
-        left_shoulder=NOWHERE, right_shoulder=NOWHERE, shoulder_center=NOWHERE, hip_center=NOWHERE
-    )
-    assert np.isnan(planes).all()

@@ -5,12 +5,6 @@ from __future__ import annotations
 import pytest
 
 from teo_skeleton_retriever.compat.original_skeleton import (
-    CHAINS,
-    FALLBACKS,
-    FROM_BODY_25,
-    LIMBS,
-    MIDPOINTS,
-    PARENTS,
     SKELETON_STD,
 )
 from teo_skeleton_retriever.layouts.layout import BODY_25, COCO_18, FACE_70, HAND_21, Layout
@@ -21,12 +15,6 @@ SIZES = {BODY_25: 25, COCO_18: 18, HAND_21: 21, FACE_70: 70, SKELETON_STD: 17}
 @pytest.mark.parametrize("layout", SIZES, ids=lambda layout: layout.name)
 def test_every_layout_has_its_number_of_different_keypoints(layout: Layout) -> None:
     assert len(layout) == SIZES[layout] == len(set(layout.keypoints))
-
-
-@pytest.mark.parametrize("layout", SIZES, ids=lambda layout: layout.name)
-def test_bones_join_known_keypoints_and_none_twice(layout: Layout) -> None:
-    assert all(a in layout.index and b in layout.index and a != b for a, b in layout.bones)
-    assert len({frozenset(bone) for bone in layout.bones}) == len(layout.bones)
 
 
 def test_body_25_is_numbered_as_openpose_documents() -> None:
@@ -59,25 +47,3 @@ def test_face_rings_are_closed_and_pupils_stand_alone() -> None:
     assert ("Face41", "Face36") in FACE_70.bones
     assert ("Face16", "Face0") not in FACE_70.bones
     assert not any("Face68" in bone or "Face69" in bone for bone in FACE_70.bones)
-
-
-def test_the_original_skeleton_is_one_tree_from_the_shoulder_centre() -> None:
-    for tag in PARENTS:
-        seen = [tag]
-        while (parent := PARENTS[seen[-1]]) is not None:
-            seen.append(parent)
-            assert len(seen) <= len(PARENTS)
-        assert seen[-1] == "shoulderCenter"
-
-
-def test_every_original_keypoint_comes_from_one_of_body_25() -> None:
-    assert set(FROM_BODY_25.values()) == set(SKELETON_STD.keypoints)
-    assert set(FROM_BODY_25) <= set(BODY_25.keypoints)
-    assert set(FALLBACKS.values()) <= set(BODY_25.keypoints)
-    assert all(PARENTS[tag] == "hipCenter" for tag in MIDPOINTS["hipCenter"])
-
-
-def test_chains_follow_parents_and_every_limb_lies_in_one() -> None:
-    for chain in CHAINS:
-        assert [PARENTS[tag] for tag in chain[1:]] == list(chain[:-1])
-    assert sorted(tag for chain in CHAINS for tag in chain[1:]) == sorted(LIMBS)

@@ -10,15 +10,12 @@ from typing import Any
 import camera_take as take
 import numpy as np
 import pytest
-from node_bench import IMAGES, NodeBench
 from sensor_msgs.msg import Image
-from teo_sign_msgs.msg import Keypoint3D, Skeleton3D
+from teo_sign_msgs.msg import Keypoint3D
 from teo_sign_msgs.srv import LockSigner
 from visualization_msgs.msg import MarkerArray
 
-from teo_skeleton_retriever.detectors import make_detector
 from teo_skeleton_retriever.layouts.layout import BODY_25
-from teo_skeleton_retriever.layouts.person_2d import Person2D
 
 
 def test_a_person_is_published_in_the_cameras_frame_with_the_stamp_of_the_image(start):
@@ -51,48 +48,6 @@ def test_an_empty_scene_gives_an_empty_array_for_each_image(start):
     bench.send_until(lambda: len(bench.arrays) > 3)
     assert all(not message.skeletons for message in bench.arrays)
     bench.until(lambda: bench.said("people") == "0" and int(bench.said("results")) > 3)
-
-
-def test_ten_people_are_ten_skeletons_with_one_signer(start):
-    bench = start(*(take.person(shift) for shift in range(-110, 140, 25)))
-    flat = np.full((take.HEIGHT, take.WIDTH), 2000, dtype=np.uint16)
-    bench.send_until(
-        lambda: bench.arrays and len(bench.arrays[-1].skeletons) == 10,
-        depth=lambda s: take.image_message(flat, "16UC1", s),
-    )
-    people = bench.arrays[-1].skeletons
-    assert [person.id for person in people] == sorted({person.id for person in people})
-    assert sum(person.is_signer for person in people) == 1
-
-
-def test_half_a_person_is_followed_as_far_as_it_is_seen(start):
-    body = take.person().body.copy()
-    body[8:15] = 0.0  # what is below the table
-    bench = start(Person2D(body=body))
-    bench.send_until(bench.followed)
-    (person,) = bench.arrays[-1].skeletons
-    assert person.body[BODY_25.index["MidHip"]].status == Keypoint3D.STATUS_LOST
-    assert person.body_frame_origin == Skeleton3D.BODY_FRAME_SHOULDERS
-
-
-def test_who_leaves_and_returns_is_the_same_person(context):
-    stamps = [(take.START + i * take.PERIOD) * 1e-9 for i in range(IMAGES)]
-    gone = range(20, 60)  # for 1.3 s
-    frames = [(s, () if i in gone else (take.person(),)) for i, s in enumerate(stamps)]
-    bench = NodeBench(context, make_detector("replay", frames=frames))
-    try:
-        bench.send_until(bench.followed)
-        before = bench.arrays[-1].skeletons[0].id
-        bench.send_until(lambda: not bench.arrays[-1].skeletons)
-        assert bench.recovers()
-        assert bench.arrays[-1].skeletons[0].id == before
-    finally:
-        bench.close()
-
-
-def test_compressed_colour_and_depth_are_followed(start):
-    bench = start(take.person(), color_transport="compressed", depth_transport="compressedDepth")
-    bench.send_until(bench.followed, color=take.compressed_color, depth=take.compressed_depth)
 
 
 def test_what_is_published_compressed_alone_is_found_by_itself(start):

@@ -44,12 +44,3 @@ def test_only_what_is_known_is_marked_and_no_number_is_nan():
     for marker in marker_array([person(0, [4]), person(1, [])], Header()).markers:
         assert marker.type != Marker.LINE_LIST
         assert all(np.isfinite([point.x, point.y, point.z]).all() for point in marker.points)
-
-
-def test_two_people_have_names_of_their_own():
-    markers = marker_array([person(0, [1, 2]), person(1, [1, 2])], Header()).markers
-    assert len({(marker.ns, marker.id) for marker in markers}) == len(markers)
-
-
-def test_nobody_is_an_empty_array():
-    assert list(marker_array([], Header()).markers) == []

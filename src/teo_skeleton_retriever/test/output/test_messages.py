@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
@@ -80,14 +79,3 @@ def test_every_keypoint_has_its_name_and_a_lost_part_is_left_out():
     assert not any(len(getattr(message, part)) for part in SKELETON_PARTS)
     assert message.body_frame_origin == Skeleton3D.BODY_FRAME_UNKNOWN
     assert np.isnan(message.body_frame.position.x)
-
-
-def test_nobody_is_an_empty_array_with_a_header():
-    message = skeleton_array([], Header(frame_id="camera"))
-    assert (list(message.skeletons), message.header.frame_id) == ([], "camera")
-
-
-@pytest.mark.parametrize("part", SKELETON_PARTS)
-def test_the_message_bounds_are_those_of_the_layouts(part):
-    (message,) = skeleton_array([skeleton()], Header()).skeletons
-    assert len(getattr(message, part)) == len(SKELETON_PARTS[part])

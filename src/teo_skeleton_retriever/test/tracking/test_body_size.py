@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from capsule_person import FOREARM, ROW, SHOULDERS, UPPER_ARM, pose
 
-from teo_skeleton_retriever.tracking.body_size import BodySize, widened
+from teo_skeleton_retriever.tracking.body_size import BodySize
 
 
 def seen(size: float, images: int = 60, *, noise: float = 0.008) -> BodySize:
@@ -26,11 +26,6 @@ def test_lengths_are_those_of_the_person(size: float) -> None:
     assert estimate.length("upper arm")[0] == pytest.approx(size * UPPER_ARM, abs=0.01)
     assert estimate.length("forearm")[0] == pytest.approx(size * FOREARM, abs=0.01)
     assert estimate.scale == pytest.approx(size * SHOULDERS / 0.36, rel=0.05)
-
-
-def test_before_anything_is_seen_a_person_is_average_and_that_is_uncertain() -> None:
-    assert BodySize().scale == 1.0
-    assert BodySize().length("forearm")[1] > 2 * seen(1.0).length("forearm")[1]
 
 
 def test_arms_that_a_detector_sees_short_for_minutes_are_not_believed_to_be() -> None:
@@ -77,8 +72,3 @@ def test_shoulders_that_are_seen_as_an_average_persons_are_put_right() -> None:
 def test_hands_differ_less_than_shoulders() -> None:
     small, large = seen(0.75), seen(1.15)
     assert 1.0 < large.hand_scale / small.hand_scale < large.scale / small.scale
-
-
-def test_points_are_moved_apart_about_their_middle() -> None:
-    pair = np.array([[0.0, 1.0], [4.0, 3.0]])
-    np.testing.assert_allclose(widened(pair, 1.5), [[-1.0, 0.5], [5.0, 3.5]])

@@ -7,9 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from teo_skeleton_retriever.compat.original_retriever import OriginalLimbLength
-from teo_skeleton_retriever.errors import RetrieverError
-from teo_skeleton_retriever.tracking.body_size import LimbLength, LimbLengthSettings
+from teo_skeleton_retriever.tracking.body_size import LimbLength
 
 NEAR = np.array([0.1, 0.2, 1.8])
 
@@ -18,26 +16,6 @@ def ends(length: float, along: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
     """A limb whose direction has this share along the camera's axis."""
     direction = np.array([math.sqrt(1.0 - along**2), 0.0, along])
     return NEAR, NEAR + length * direction
-
-
-def test_the_original_locks_the_median_of_its_first_lengths() -> None:
-    limb = OriginalLimbLength(order=4)
-    for length in (0.2, 0.3, 0.25, 0.9):
-        limb.step(length)
-        assert limb.value is None
-    limb.step(0.26)
-    assert limb.value == 0.26
-    for _ in range(100):
-        limb.step(0.5)
-    assert limb.value == 0.26
-
-
-def test_the_original_believes_up_to_twice_the_length() -> None:
-    limb = OriginalLimbLength(order=0)
-    assert not limb.too_long(5.0)
-    limb.step(0.25)
-    assert not limb.too_long(0.5)
-    assert limb.too_long(0.501)
 
 
 def test_ours_has_an_estimate_after_a_third_of_a_second() -> None:
@@ -77,13 +55,6 @@ def test_limbs_across_the_view_count_more_than_limbs_along_it() -> None:
     assert limb.value == pytest.approx(0.27)
 
 
-def test_an_arm_that_only_points_at_the_camera_has_a_length_too() -> None:
-    limb = LimbLength()
-    for _ in range(20):
-        limb.step(*ends(0.27, along=1.0))
-    assert limb.value == pytest.approx(0.27)
-
-
 @pytest.mark.parametrize("length", [0.0, 0.05, 0.9, math.nan, math.inf])
 def test_lengths_that_no_human_has_do_not_count(length: float) -> None:
     limb = LimbLength()
@@ -91,20 +62,3 @@ def test_lengths_that_no_human_has_do_not_count(length: float) -> None:
         limb.step(NEAR, NEAR + np.array([length, 0.0, 0.0]))
     assert limb.value is None
     assert not limb.too_long(10.0)
-
-
-def test_too_long_is_measured_against_the_estimate() -> None:
-    limb = LimbLength()
-    for _ in range(20):
-        limb.step(*ends(0.25))
-    assert not limb.too_long(0.34)
-    assert limb.too_long(0.36)
-
-
-@pytest.mark.parametrize(
-    "changes",
-    [{"min_samples": 0}, {"window": 5}, {"shortest": 0.7}, {"tolerance": 1.0}, {"longest": math.nan}],
-)
-def test_settings_that_make_no_estimate_are_refused(changes: dict[str, float]) -> None:
-    with pytest.raises(RetrieverError):
-        LimbLengthSettings(**changes)

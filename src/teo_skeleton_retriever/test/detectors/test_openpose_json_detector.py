@@ -21,7 +21,6 @@ from teo_skeleton_retriever.detectors.openpose_json_detector import (
     ReplayDetector,
 )
 from teo_skeleton_retriever.errors import RetrieverError
-from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
 WIDTH, HEIGHT = 640, 480
@@ -65,15 +64,6 @@ def test_a_frame_left_out_has_no_people_and_shifts_nothing(tmp_path: Path) -> No
     assert detector.missing == 1
 
 
-def test_a_file_that_comes_later_is_waited_for(tmp_path: Path) -> None:
-    detector = OpenPoseJsonDetector(folder=tmp_path, wait=10.0)
-    for number in (0, 1):
-        writer = threading.Timer(0.15, write, (tmp_path, number))
-        writer.start()
-        assert mark_of(detector.detect(IMAGE, 0.1 * number)) == number
-        writer.join()
-
-
 def test_a_half_written_file_is_waited_for(tmp_path: Path) -> None:
     text = format_frame(frame(5))
     path = frame_path(tmp_path, "0")
@@ -92,16 +82,6 @@ def test_a_file_that_stays_half_fails_its_own_image_only(tmp_path: Path, text: s
     detector = OpenPoseJsonDetector(folder=tmp_path, wait=0.02)
     assert code_of(detector.detect, IMAGE, 0.0) == "late"
     assert mark_of(detector.detect(IMAGE, 0.1)) == 1
-
-
-def test_a_file_that_does_not_come_fails_its_own_image_only(tmp_path: Path) -> None:
-    write(tmp_path, 0)
-    detector = OpenPoseJsonDetector(folder=tmp_path, wait=0.02)
-    detector.detect(IMAGE, 0.0)
-    assert code_of(detector.detect, IMAGE, 0.1) == "late"
-    write(tmp_path, 1)
-    write(tmp_path, 2)
-    assert mark_of(detector.detect(IMAGE, 0.2)) == 2
 
 
 def test_what_is_not_openposes_is_told_at_once(tmp_path: Path) -> None:
@@ -149,31 +129,6 @@ def test_a_table_file_that_is_none_is_refused(tmp_path: Path, content: bytes) ->
     table.write_bytes(content)
     assert code_of(OpenPoseJsonDetector, folder=tmp_path, stamps=table) in ("bad_stamps", "no_stamps")
     assert code_of(OpenPoseJsonDetector, folder=tmp_path, stamps=tmp_path / "none.csv") == "bad_stamps"
-
-
-def test_all_people_are_given(tmp_path: Path) -> None:
-    write(tmp_path, 0, people=10)
-    assert len(OpenPoseJsonDetector(folder=tmp_path).detect(IMAGE, 0.0)) == 10
-
-
-@pytest.mark.parametrize(
-    ("version", "key", "keypoints"),
-    [
-        (0.1, "body_parts", 18),
-        (1.0, "pose_keypoints", 18),
-        (1.1, "pose_keypoints", 15),
-        (1.2, "pose_keypoints_2d", 25),
-        (1.3, "pose_keypoints_2d", 25),
-    ],
-)
-def test_bodies_of_every_version_and_model_come_as_body_25(
-    tmp_path: Path, version: float, key: str, keypoints: int
-) -> None:
-    numbers = ",".join(f"{i},{i},0.5" for i in range(keypoints))
-    frame_path(tmp_path, "0").write_text(f'{{"version":{version},"people":[{{"{key}":[{numbers}]}}]}}')
-    body = OpenPoseJsonDetector(folder=tmp_path).detect(IMAGE, 0.0)[0].body
-    assert body.shape == (25, 3)
-    assert body[BODY_25.index["LWrist"]].tolist() == [7.0, 7.0, 0.5]  # the same place in all three models
 
 
 def test_folder_and_options_that_do_not_go_together_are_refused(tmp_path: Path) -> None:
@@ -234,10 +189,6 @@ def test_replay_gives_the_people_of_the_nearest_time() -> None:
     detector = ReplayDetector(frames=list(reversed(frames)))
     assert [len(detector.detect(IMAGE, 10.0 + i / 30.0 + 0.01)) for i in (2, 0, 1)] == [2, 0, 1]
     assert detector.detect(IMAGE, 11.0) == ()
-
-
-def test_replay_of_nothing_gives_nobody() -> None:
-    assert ReplayDetector(frames=[]).detect(IMAGE, 0.0) == ()
 
 
 def test_replay_of_a_folder_gives_its_files(tmp_path: Path) -> None:
