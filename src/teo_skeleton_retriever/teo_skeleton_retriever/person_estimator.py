@@ -19,7 +19,6 @@ from teo_skeleton_retriever.depth.shoulder_outline import by_outline
 from teo_skeleton_retriever.depth.skin import BODY_DEPTHS, HAND_DEPTHS
 from teo_skeleton_retriever.detectors.detector import DetectionFrame
 from teo_skeleton_retriever.detectors.mediapipe.calibration import (
-    BODY_SHIFTS,
     EAR_BEHIND,
     MEDIAPIPE_HAND_BONES,
     corrected_body,
@@ -201,7 +200,7 @@ class PersonEstimator:
         keypoints = np.zeros((N, 3))
         keypoints[BODY] = as_body_25(person.body)
         if self._parameters.detector == "mediapipe":
-            keypoints[BODY] = corrected_body(keypoints[BODY], BODY_SHIFTS)
+            keypoints[BODY] = corrected_body(keypoints[BODY])
             keypoints[_SHOULDERS, :2] = widened(keypoints[_SHOULDERS, :2], self._size.widening)
             keypoints[BODY], outlined = by_outline(
                 keypoints[BODY],

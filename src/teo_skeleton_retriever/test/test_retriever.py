@@ -292,3 +292,11 @@ def test_memory_is_bounded_over_ten_thousand_images() -> None:
 
     before = play(0, 2000)
     assert play(2000, 10_000) - before < 2_000_000  # [bytes]
+
+
+def test_time_that_stands_still_harms_nothing() -> None:
+    retriever = Retriever(AT_ONCE)
+    for i in range(10):
+        found = retriever.process(replace(frame(i / RATE, signing(0.0)), stamp=1.0))
+    assert error(only(found).body.points[ARMS], signing(0.0).body[ARMS]) < 0.03
+    assert np.isfinite(only(found).body.sigma[ARMS]).all()

@@ -137,11 +137,11 @@ class Surfaces(NamedTuple):
         return DepthSamples(self.depth[rows, best], self.sigma[rows, best], self.support[rows, best])
 
 
-# [px] A disc is no smaller, as single pixels are holes or flying pixels, and no larger. The largest is looked at
-# where the smaller disc is a hole.
+# [px] A disc is no smaller, as single pixels are holes or flying pixels, and no larger. The largest is looked
+# at where the smaller disc is a hole.
 _MIN_RADIUS, _MAX_RADIUS = 1.5, 20.0
-# Of a disc's measured pixels: a smaller surface is specks. Flying pixels at an edge lie between foreground and
-# background.
+# Of a disc's measured pixels: a smaller surface is specks. Flying pixels at an edge lie between foreground
+# and background.
 _MIN_SUPPORT = 0.1
 _NOISE = 0.002  # [m] least sigma at 1 m, which grows with the square of the depth: the data sheet of the D435
 

@@ -8,7 +8,7 @@ import inspect
 import math
 from dataclasses import dataclass
 from importlib.metadata import entry_points
-from typing import Any, Protocol, cast, runtime_checkable
+from typing import Any, Protocol, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,18 +51,12 @@ class Detector(Protocol):
         """Release what it holds; a second call does nothing."""
 
 
-@runtime_checkable
-class LimitedDetector(Protocol):
-    """A detector that follows so many people at most, and knows of those whom it leaves out."""
-
-    @property
-    def people_left_out(self) -> int:
-        """How many more it sees than it follows, as far as it has looked."""
-
-
 def people_left_out(detector: Detector) -> int:
-    """How many more people a detector sees than it follows; 0 if it has no limit."""
-    return detector.people_left_out if isinstance(detector, LimitedDetector) else 0
+    """How many more people a detector sees than it follows; 0 of one that follows everybody.
+
+    A detector with a limit has a property of this name.
+    """
+    return int(getattr(detector, "people_left_out", 0))
 
 
 def left_out_sentence(count: int) -> str:

@@ -16,9 +16,7 @@ import os
 import re
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 
@@ -32,42 +30,23 @@ VERSION = 1.3
 _VERSIONS = (0.1, 1.0, 1.1, 1.2, 1.3)
 
 
-class PartKeys(NamedTuple):
-    """Where one part of a person stands in the file."""
-
-    attribute: str
-    """of `Person2D`"""
-    keys: tuple[str, ...]
-    """in the file; the first is the present one"""
-
-
 _COLUMNS = 3  # numbers of a keypoint: x, y [px], score
-# In the order in which OpenPose writes them. What it may write besides (3D points, candidates of body
-# parts, ids) is not used.
-PARTS = (
-    PartKeys("body", ("pose_keypoints_2d", "pose_keypoints", "body_parts")),
-    PartKeys("face", ("face_keypoints_2d", "face_keypoints")),
-    PartKeys("left_hand", ("hand_left_keypoints_2d", "hand_left_keypoints")),
-    PartKeys("right_hand", ("hand_right_keypoints_2d", "hand_right_keypoints")),
-)
-
-
-@dataclass(frozen=True, eq=False)
-class OpenPoseFrame:
-    """All people of one image.
-
-    Attributes:
-        people: In OpenPose's order, which says nothing about who is who in the next image.
-    """
-
-    people: tuple[Person2D, ...]
-
+# The keys of each part of a `Person2D` in the file, the present one first, in the order in which OpenPose
+# writes them. What it may write besides (3D points, candidates of body parts, ids) is not used.
+PARTS = {
+    "body": ("pose_keypoints_2d", "pose_keypoints", "body_parts"),
+    "face": ("face_keypoints_2d", "face_keypoints"),
+    "left_hand": ("hand_left_keypoints_2d", "hand_left_keypoints"),
+    "right_hand": ("hand_right_keypoints_2d", "hand_right_keypoints"),
+}
+# All people of one image, in OpenPose's order, which says nothing about who is who in the next image.
+People = tuple[Person2D, ...]
 
 # A person is about 10 kB of text; nothing that OpenPose writes comes near this.
 MAX_FILE_BYTES = 64 * 1024 * 1024
 
 
-def read_frame(path: Path) -> OpenPoseFrame:
+def read_frame(path: Path) -> People:
     """Read one file.
 
     Raises:
@@ -88,7 +67,7 @@ def read_frame(path: Path) -> OpenPoseFrame:
     return parse_frame(content, source=str(path))
 
 
-def parse_frame(content: bytes | str, *, source: str = "OpenPose JSON") -> OpenPoseFrame:
+def parse_frame(content: bytes | str, *, source: str = "OpenPose JSON") -> People:
     """Read the text of one file.
 
     Args:
@@ -116,7 +95,7 @@ def parse_frame(content: bytes | str, *, source: str = "OpenPose JSON") -> OpenP
     if not isinstance(people, list):
         raise RetrieverError("no_people", f"{source}: expected a list 'people', got {_kind(people)}")
     _check_version(data.get("version", VERSION), source)
-    return OpenPoseFrame(tuple(_person(person, f"{source}: people[{i}]") for i, person in enumerate(people)))
+    return tuple(_person(person, f"{source}: people[{i}]") for i, person in enumerate(people))
 
 
 def _check_version(value: object, source: str) -> None:
@@ -129,15 +108,15 @@ def _check_version(value: object, source: str) -> None:
 def _person(data: object, source: str) -> Person2D:
     if not isinstance(data, dict):
         raise RetrieverError("not_a_person", f"{source}: expected an object, got {_kind(data)}")
-    parts = {part.attribute: _part(data, part, source) for part in PARTS}
+    parts = {part: _part(data, keys, source) for part, keys in PARTS.items()}
     try:
         return Person2D(**parts)
     except RetrieverError as error:
         raise RetrieverError(error.code, f"{source}: {error.sentence}") from error
 
 
-def _part(person: Mapping[str, object], part: PartKeys, source: str) -> FloatArray:
-    for key in part.keys:
+def _part(person: Mapping[str, object], keys: tuple[str, ...], source: str) -> FloatArray:
+    for key in keys:
         if key in person:
             return _table(person[key], f"{source}.{key}")
     return frozen(np.zeros((0, _COLUMNS)))
@@ -213,7 +192,7 @@ class OpenPoseFolder:
             ) from error
         return self._files
 
-    def read(self, path: Path) -> OpenPoseFrame | None:
+    def read(self, path: Path) -> People | None:
         """Read a file; None if it is not whole yet.
 
         Raises:

@@ -14,7 +14,7 @@ import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.detectors.detector import ImageArray, check_image
-from teo_skeleton_retriever.detectors.openpose_files import PERIOD, OpenPoseFolder, OpenPoseFrame, StampTable
+from teo_skeleton_retriever.detectors.openpose_files import PERIOD, OpenPoseFolder, People, StampTable
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.person_2d import Person2D, as_body_25
 
@@ -153,15 +153,15 @@ class OpenPoseJsonDetector:
         if self._closed:
             raise RetrieverError("closed", "expected an open detector, got one that was closed")
         check_image(image, stamp)
-        frame = self._frame(stamp)
+        people = self._people(stamp)
         height, width = image.shape[:2]
-        return tuple(self._scale.to_pixels(person, width, height) for person in frame.people)
+        return tuple(self._scale.to_pixels(person, width, height) for person in people)
 
     def close(self) -> None:
         """Give nothing any more."""
         self._closed = True
 
-    def _frame(self, stamp: float) -> OpenPoseFrame:
+    def _people(self, stamp: float) -> People:
         if self._newest:
             return self._within_wait(self._read_newest, "a new file")
         number = self._next_number() if self._table is None else self._table.number_at(stamp)
@@ -185,14 +185,14 @@ class OpenPoseJsonDetector:
         self._last += 1
         return self._last
 
-    def _read(self, number: int) -> OpenPoseFrame | None:
+    def _read(self, number: int) -> People | None:
         files = self._folder.files()
         if number in files:
             return self._folder.read(files[number])
         # OpenPose writes in order: what a later file has overtaken does not come any more.
         return self._left_out() if any(other > number for other in files) else None
 
-    def _read_newest(self) -> OpenPoseFrame | None:
+    def _read_newest(self) -> People | None:
         assert self._last is not None
         files = self._folder.files()
         for number in sorted((number for number in files if number > self._last), reverse=True):
@@ -202,9 +202,9 @@ class OpenPoseJsonDetector:
                 return frame
         return None
 
-    def _left_out(self) -> OpenPoseFrame:
+    def _left_out(self) -> People:
         self.missing += 1
-        return OpenPoseFrame(())
+        return ()
 
 
 class ReplayDetector:

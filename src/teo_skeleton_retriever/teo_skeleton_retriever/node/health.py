@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 from collections import Counter, deque
@@ -21,11 +22,57 @@ _WINDOW = 10.0  # [s] long enough for a 99th percentile of 300 images at 30 Hz
 _MOST = 1200  # images of the window at 120 Hz; bounds the memory
 
 
+# Times of `Result` by the name that diagnostics give them.
+_TIMES = {
+    "arrival to result": "delay",
+    "image stamp to result": "age",
+    "detector": "detector",
+    "own time": "own",
+}
+
+
 class Percentiles(NamedTuple):
     """Of times [s]; NaN of none."""
 
     median: float
     p99: float
+
+
+class Result(NamedTuple):
+    """What is kept of one processed image; times in seconds."""
+
+    now: float
+    """when it was done"""
+    delay: float
+    """from the arrival of the image's last part to the result"""
+    age: float
+    """from the image's stamp to the result; NaN where the clocks have nothing to do with each other"""
+    detector: float
+    """time of the detector"""
+    own: float
+    """time of what comes after it"""
+    people: int
+    depth_share: float
+    """part of the pixels with a depth, 0 to 1"""
+    depth_median: float
+    """of the depths [m]; NaN if there is none"""
+    signer: int | None
+    """id; None if there is none"""
+    people_left_out: int = 0
+    """how many more people the detector sees than it follows"""
+
+
+_NOTHING = Result(
+    now=math.nan,
+    delay=math.nan,
+    age=math.nan,
+    detector=math.nan,
+    own=math.nan,
+    people=0,
+    depth_share=math.nan,
+    depth_median=math.nan,
+    signer=None,
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,47 +82,18 @@ class StreamReport:
     Attributes:
         rates: Messages or results per second, by stream [Hz].
         silent: Time since the last of each stream, or since the start if none has come [s].
-        delay: From the arrival of an image's last part to its result.
-        age: From an image's stamp to its result; NaN where the clocks have nothing to do with each other.
-        detector: Time of the detector.
-        own: Time of what comes after it.
+        times: Percentiles of the times of `Result`, by the name that diagnostics give them.
         dropped: Since the start, by reason.
         results: Since the start.
-        people: In the last image.
-        depth_share: Part of its pixels with a depth, 0 to 1; NaN before the first.
-        depth_median: Of its depths [m]; NaN if it has none.
-        signer: Id of its signer, None if there is none.
-        people_left_out: How many more people the detector sees than it follows.
+        last: The last result.
     """
 
     rates: dict[str, float]
     silent: dict[str, float]
-    delay: Percentiles
-    age: Percentiles
-    detector: Percentiles
-    own: Percentiles
+    times: dict[str, Percentiles]
     dropped: dict[str, int]
     results: int
-    people: int
-    depth_share: float
-    depth_median: float
-    signer: int | None
-    people_left_out: int
-
-
-class Result(NamedTuple):
-    """What is kept of one processed image; times in seconds."""
-
-    now: float
-    delay: float
-    age: float
-    detector: float
-    own: float
-    people: int
-    depth_share: float
-    depth_median: float
-    signer: int | None
-    people_left_out: int = 0
+    last: Result
 
 
 class StreamStats:
@@ -117,23 +135,19 @@ class StreamStats:
         with self._lock:
             arrivals = {name: list(times) for name, times in self._arrivals.items()}
             results = [result for result in self._results if now - result.now <= _WINDOW]
-            last = self._results[-1] if self._results else None
+            last = self._results[-1] if self._results else _NOTHING
             dropped, count = dict(self._dropped), self._count
         streams = arrivals | {"results": [result.now for result in results]}
         return StreamReport(
             rates={name: _rate(times, now) for name, times in streams.items()},
             silent={name: now - (times[-1] if times else self._start) for name, times in arrivals.items()},
-            delay=_percentiles([result.delay for result in results]),
-            age=_percentiles([result.age for result in results]),
-            detector=_percentiles([result.detector for result in results]),
-            own=_percentiles([result.own for result in results]),
+            times={
+                name: _percentiles([getattr(result, field) for result in results])
+                for name, field in _TIMES.items()
+            },
             dropped=dropped,
             results=count,
-            people=last.people if last else 0,
-            depth_share=last.depth_share if last else float("nan"),
-            depth_median=last.depth_median if last else float("nan"),
-            signer=last.signer if last else None,
-            people_left_out=last.people_left_out if last else 0,
+            last=last,
         )
 
 
@@ -184,10 +198,10 @@ def assess(report: StreamReport, topics: dict[str, str], problem: Problem | None
         message = f"{problem.code}: {problem.sentence}"
     elif silent:
         level, message = Level.WARN, f"nothing comes on {', '.join(silent)}"
-    elif fault := depth_fault(report.depth_share, report.depth_median):
-        code = "wrong_depth" if report.depth_share else "no_depth_measured"
+    elif fault := depth_fault(report.last.depth_share, report.last.depth_median):
+        code = "wrong_depth" if report.last.depth_share else "no_depth_measured"
         level, message = Level.WARN, f"{code}: {fault}"
-    elif told := left_out_sentence(report.people_left_out):
+    elif told := left_out_sentence(report.last.people_left_out):
         level, message = Level.WARN, f"too_many_people: {told}"
     elif report.rates["results"] < _SLOW * report.rates["color"]:
         level = Level.WARN
@@ -200,30 +214,20 @@ def assess(report: StreamReport, topics: dict[str, str], problem: Problem | None
 
 def _values(report: StreamReport) -> dict[str, str]:
     values = {f"{name} [Hz]": f"{rate:.1f}" for name, rate in report.rates.items()}
-    for name, times in {
-        "arrival to result": report.delay,
-        "image stamp to result": report.age,
-        "detector": report.detector,
-        "own time": report.own,
-    }.items():
-        values |= _milliseconds(name, times)
+    for name, times in report.times.items():
+        values[f"{name}, median [ms]"] = f"{times.median * 1e3:.1f}"
+        values[f"{name}, p99 [ms]"] = f"{times.p99 * 1e3:.1f}"
+    last = report.last
     values |= {
         "results": str(report.results),
-        "people": str(report.people),
-        "people left out": str(report.people_left_out),
-        "signer": "" if report.signer is None else str(report.signer),
-        "depth known [%]": f"{100.0 * report.depth_share:.0f}",
-        "median depth [m]": f"{report.depth_median:.2f}",
+        "people": str(last.people),
+        "people left out": str(last.people_left_out),
+        "signer": "" if last.signer is None else str(last.signer),
+        "depth known [%]": f"{100.0 * last.depth_share:.0f}",
+        "median depth [m]": f"{last.depth_median:.2f}",
         "dropped": str(sum(report.dropped.values())),
     }
     return values | {f"dropped {reason}": str(count) for reason, count in sorted(report.dropped.items())}
-
-
-def _milliseconds(name: str, times: Percentiles) -> dict[str, str]:
-    return {
-        f"{name}, median [ms]": f"{times.median * 1e3:.1f}",
-        f"{name}, p99 [ms]": f"{times.p99 * 1e3:.1f}",
-    }
 
 
 _SAY_AGAIN = 5.0  # [s] after which a problem that goes on is logged again

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+import zlib
 
 import cv2
 import numpy as np
@@ -131,3 +132,16 @@ def test_what_is_no_depth_is_refused_with_a_reason(code, data, message_format):
     with pytest.raises(RetrieverError) as refused:
         decode_compressed_depth(data, message_format)
     assert refused.value.code == code
+
+
+def test_a_picture_that_claims_to_be_gigantic_is_refused():
+    chunk = b"IHDR" + struct.pack(">IIBBBBB", 1 << 20, 1 << 20, 8, 2, 0, 0, 0)
+    data = (
+        b"\x89PNG\r\n\x1a\n"
+        + struct.pack(">I", 13)
+        + chunk
+        + struct.pack(">I", zlib.crc32(chunk))
+        + bytes(50)
+    )
+    with pytest.raises(RetrieverError):
+        decode_compressed_color(data)

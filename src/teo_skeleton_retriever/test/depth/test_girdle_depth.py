@@ -75,3 +75,9 @@ def test_without_any_depth_nothing_is_said() -> None:
     told = girdle_depths(nothing, BEHIND, head=math.nan, expected=NOWHERE, expected_sigma=NOWHERE)
     assert np.isnan(told.depth).all()
     assert not told.hidden.any()
+
+
+def test_who_was_taken_for_a_hand_in_one_image_is_found_in_the_next() -> None:
+    truth, face = person(0.0)
+    told = found(truth, NOWHERE, face, expected=truth - np.array([0.0, 0.25, 0.25]))
+    assert not told.hidden.any()

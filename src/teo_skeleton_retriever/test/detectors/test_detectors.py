@@ -14,7 +14,6 @@ from openpose_writer import frame_path, write_frame
 
 from teo_skeleton_retriever.detectors import DETECTORS, Detector, make_detector
 from teo_skeleton_retriever.detectors import detector as detectors
-from teo_skeleton_retriever.detectors.openpose_files import OpenPoseFrame
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
@@ -23,7 +22,7 @@ IMAGE = np.zeros((48, 64, 3), np.uint8)
 
 @pytest.fixture(params=[name for name in DETECTORS if name != "openpose_onnx"])
 def detector(request: pytest.FixtureRequest, tmp_path: Path) -> Detector:
-    write_frame(frame_path(tmp_path, "0"), OpenPoseFrame((Person2D(),)))
+    write_frame(frame_path(tmp_path, "0"), (Person2D(),))
     options: dict[str, dict[str, Any]] = {
         "openpose_json": {"folder": tmp_path},
         "replay": {"frames": [(0.0, [Person2D()])]},

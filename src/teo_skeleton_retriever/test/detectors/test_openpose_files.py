@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from openpose_writer import format_frame
 
-from teo_skeleton_retriever.detectors.openpose_files import OpenPoseFrame, parse_frame, read_frame
+from teo_skeleton_retriever.detectors.openpose_files import parse_frame, read_frame
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
@@ -52,9 +52,9 @@ def code_of(content: bytes | str) -> str:
 
 def test_reads_what_openpose_writes() -> None:
     frame = parse_frame(WRITTEN_BY_OPENPOSE)
-    assert len(frame.people) == 1
-    assert frame.people[0].body[0].tolist() == [582.349, 507.866, 0.845918]
-    assert len(frame.people[0].face) == len(frame.people[0].left_hand) == 0
+    assert len(frame) == 1
+    assert frame[0].body[0].tolist() == [582.349, 507.866, 0.845918]
+    assert len(frame[0].face) == len(frame[0].left_hand) == 0
 
 
 @pytest.mark.parametrize(
@@ -73,27 +73,27 @@ def test_reads_every_version_by_its_own_names(version: float, body: str, hand: s
     if hand:
         entry[hand] = [3, 4, 0.5] * 21
     frame = parse_frame(json.dumps({"version": version, "people": [entry, entry]}))
-    assert len(frame.people) == 2
-    assert frame.people[1].body.shape == (18, 3)
-    assert len(frame.people[1].left_hand) == (21 if hand else 0)
+    assert len(frame) == 2
+    assert frame[1].body.shape == (18, 3)
+    assert len(frame[1].left_hand) == (21 if hand else 0)
 
 
 def test_a_byte_order_mark_and_line_ends_of_windows_are_read() -> None:
     content = WRITTEN_BY_OPENPOSE.replace("\n", "\r\n").encode("utf-8-sig")
-    assert len(parse_frame(content).people) == 1
+    assert len(parse_frame(content)) == 1
 
 
 def test_what_is_not_used_does_not_matter() -> None:
-    assert parse_frame('{"version":1.1,"people":[],"part_candidates":[{"0":[1,2,0.5]}]}').people == ()
-    assert len(parse_frame(person(person_id=[7], pose_keypoints_3d=[1, 2, 3, 1] * 25)).people) == 1
+    assert parse_frame('{"version":1.1,"people":[],"part_candidates":[{"0":[1,2,0.5]}]}') == ()
+    assert len(parse_frame(person(person_id=[7], pose_keypoints_3d=[1, 2, 3, 1] * 25))) == 1
 
 
 @given(st.lists(people, max_size=4))
 @settings(max_examples=30, deadline=None)
 def test_what_is_written_is_read_back(written: list[Person2D]) -> None:
-    read = parse_frame(format_frame(OpenPoseFrame(tuple(written))))
-    assert len(read.people) == len(written)
-    for before, after in zip(written, read.people, strict=True):
+    read = parse_frame(format_frame(tuple(written)))
+    assert len(read) == len(written)
+    for before, after in zip(written, read, strict=True):
         for part in ("body", "left_hand", "right_hand", "face"):
             np.testing.assert_array_equal(getattr(after, part), getattr(before, part))
 

@@ -14,7 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from openpose_writer import format_frame, frame_path, write_frame
 
-from teo_skeleton_retriever.detectors.openpose_files import OpenPoseFrame
+from teo_skeleton_retriever.detectors.openpose_files import People
 from teo_skeleton_retriever.detectors.openpose_json_detector import (
     KeypointScale,
     OpenPoseJsonDetector,
@@ -27,11 +27,11 @@ WIDTH, HEIGHT = 640, 480
 IMAGE = np.zeros((HEIGHT, WIDTH, 3), np.uint8)
 
 
-def frame(mark: int, people: int = 1) -> OpenPoseFrame:
+def frame(mark: int, people: int = 1) -> People:
     """People whose nose is at x = mark, so that one sees which file was read."""
     body = np.zeros((25, 3))
     body[0] = mark, 7.0, 0.5
-    return OpenPoseFrame((Person2D(body=body),) * people)
+    return (Person2D(body=body),) * people
 
 
 def write(folder: Path, number: int, *, name: str = "{:012d}", people: int = 1) -> None:
@@ -185,7 +185,7 @@ def test_an_unseen_keypoint_is_zero_in_every_scale(scale: int) -> None:
 
 
 def test_replay_gives_the_people_of_the_nearest_time() -> None:
-    frames = [(10.0 + i / 30.0, frame(i, people=i).people) for i in range(3)]
+    frames = [(10.0 + i / 30.0, frame(i, people=i)) for i in range(3)]
     detector = ReplayDetector(frames=list(reversed(frames)))
     assert [len(detector.detect(IMAGE, 10.0 + i / 30.0 + 0.01)) for i in (2, 0, 1)] == [2, 0, 1]
     assert detector.detect(IMAGE, 11.0) == ()

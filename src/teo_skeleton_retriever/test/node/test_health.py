@@ -32,16 +32,16 @@ def test_rates_and_delays_are_those_of_the_last_ten_seconds():
     report = streaming(30.0).report(30.0)
     assert report.rates["color"] == pytest.approx(30.0, rel=0.02)
     assert report.rates["results"] == pytest.approx(30.0, rel=0.02)
-    assert report.delay.median == pytest.approx(0.02)
-    assert report.own.p99 == pytest.approx(0.004)
+    assert report.times["arrival to result"].median == pytest.approx(0.02)
+    assert report.times["own time"].p99 == pytest.approx(0.004)
     assert report.results == 900
-    assert report.signer == 3
+    assert report.last.signer == 3
 
 
 def test_a_stream_that_stopped_loses_its_rate():
     report = streaming(5.0).report(16.0)
     assert report.rates["color"] == 0.0
-    assert math.isnan(report.delay.median)
+    assert math.isnan(report.times["arrival to result"].median)
     assert report.silent["depth"] == pytest.approx(11.0, abs=0.1)
 
 

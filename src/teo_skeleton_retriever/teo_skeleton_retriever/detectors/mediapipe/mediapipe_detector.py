@@ -25,10 +25,7 @@ from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25, HAND_21
 from teo_skeleton_retriever.layouts.person_2d import Person2D, midpoint
 
-POSE_LANDMARKS = 33
-HAND_LANDMARKS = 21
-# Without and with the irises.
-FACE_LANDMARKS = (468, 478)
+_NOTHING = np.zeros((0, 3))
 
 # Small toes have no counterpart.
 BODY_25_FROM_POSE: dict[str, int] = {
@@ -76,72 +73,35 @@ FACE_70_FROM_MESH: dict[str, tuple[int, ...]] = {
 }
 
 
-def person_from_holistic(
-    *,
-    width: int,
-    height: int,
-    pose: FloatArray | None = None,
-    left_hand: FloatArray | None = None,
-    right_hand: FloatArray | None = None,
-    face: FloatArray | None = None,
-    left_hand_confidence: float = 1.0,
-    right_hand_confidence: float = 1.0,
-    face_confidence: float = 1.0,
-) -> Person2D:
+def person_from_holistic(landmarks: HolisticLandmarks, *, width: int, height: int) -> Person2D:
     """Bring one person's landmarks into OpenPose's order and into pixels.
 
     Args:
+        landmarks: Of the person. A hand that is the other one is left out.
         width: Of the image [px].
         height: Of the image [px].
-        pose: x, y in [0, 1] of width and height, visibility in [0, 1]. Shape (33, 3); None if not seen.
-        left_hand: x, y likewise; the person's own left. Shape (21, 2).
-        right_hand: Likewise.
-        face: Likewise. Shape (468, 2) or (478, 2).
-        left_hand_confidence: MediaPipe gives a hand whole or not at all, with one figure for all landmarks.
-        right_hand_confidence: Likewise.
-        face_confidence: Likewise for the face.
-
-    Raises:
-        RetrieverError: A shape is another, or a number is not finite, or a visibility is outside [0, 1]
-            (MediaPipe's own test data holds logits).
     """
     size = np.array([width, height], dtype=np.float64)
-    return Person2D(
-        body=_body(_checked(pose, "pose", (POSE_LANDMARKS,), 3), size),
-        left_hand=_part(_checked(left_hand, "left_hand", (HAND_LANDMARKS,), 2), size, left_hand_confidence),
-        right_hand=_part(
-            _checked(right_hand, "right_hand", (HAND_LANDMARKS,), 2), size, right_hand_confidence
-        ),
-        face=_face(_checked(face, "face", FACE_LANDMARKS, 2), size, face_confidence),
+    left, right = own_hands(landmarks)
+    return without_doubles(
+        Person2D(
+            body=_body(landmarks.pose, size),
+            left_hand=_part(landmarks.left_hand if left else None, size, landmarks.left_hand_score),
+            right_hand=_part(landmarks.right_hand if right else None, size, landmarks.right_hand_score),
+            face=_face(landmarks.face, size, landmarks.face_score),
+            left_hand_world=landmarks.left_hand_world if left else None,
+            right_hand_world=landmarks.right_hand_world if right else None,
+        )
     )
-
-
-def _checked(
-    landmarks: FloatArray | None, name: str, counts: tuple[int, ...], columns: int
-) -> FloatArray | None:
-    if landmarks is None:
-        return None
-    array = np.asarray(landmarks, dtype=np.float64)
-    if array.ndim != 2 or len(array) not in counts or array.shape[1] != columns:
-        raise RetrieverError(
-            "wrong_shape",
-            f"{name}: expected {' or '.join(map(str, counts))} rows of {columns}, got shape {array.shape}",
-        )
-    if not np.isfinite(array).all():
-        raise RetrieverError("not_finite", f"{name}: expected finite numbers, got NaN or infinity")
-    if columns == 3 and not ((array[:, 2] >= 0.0) & (array[:, 2] <= 1.0)).all():
-        raise RetrieverError(
-            "bad_visibility", f"{name}: expected visibilities in [0, 1]; logits want a sigmoid"
-        )
-    return array
 
 
 def _body(pose: FloatArray | None, size: FloatArray) -> FloatArray:
     if pose is None:
-        return np.zeros((0, 3))
+        return _NOTHING
+    confident = np.column_stack([pose[:, :2], pose[:, 3:].min(axis=1)])  # in the image, and in view
     body = np.zeros((len(BODY_25), 3))
     for name, landmark in BODY_25_FROM_POSE.items():
-        body[BODY_25.index[name]] = pose[landmark] * [*size, 1.0]
+        body[BODY_25.index[name]] = confident[landmark] * [*size, 1.0]
     for name, (first, second) in _BODY_25_FROM_PAIRS.items():
         body[BODY_25.index[name]] = midpoint(body[BODY_25.index[first]], body[BODY_25.index[second]])
     return body
@@ -149,17 +109,17 @@ def _body(pose: FloatArray | None, size: FloatArray) -> FloatArray:
 
 def _part(landmarks: FloatArray | None, size: FloatArray, confidence: float) -> FloatArray:
     if landmarks is None:
-        return np.zeros((0, 3))
-    return np.column_stack([landmarks * size, np.full(len(landmarks), confidence)])
+        return _NOTHING
+    return np.column_stack([landmarks[:, :2] * size, np.full(len(landmarks), confidence)])
 
 
 def _face(mesh: FloatArray | None, size: FloatArray, confidence: float) -> FloatArray:
     if mesh is None:
-        return np.zeros((0, 3))
+        return _NOTHING
     chosen = np.array([i for part in FACE_70_FROM_MESH.values() for i in part])
     seen = chosen < len(mesh)
     face = np.zeros((len(chosen), 3))
-    face[seen, :2] = mesh[chosen[seen]] * size
+    face[seen, :2] = mesh[chosen[seen], :2] * size
     face[seen, 2] = confidence
     return face
 
@@ -235,7 +195,8 @@ class MediaPipeDetector:
             if self._follower is follower:  # a graph that failed once refuses everything after
                 self._follower = self._make_follower()
             raise
-        return tuple(_person(landmarks, image) for landmarks in found)
+        height, width = image.shape[:2]
+        return tuple(person_from_holistic(landmarks, width=width, height=height) for landmarks in found)
 
     @property
     def people_left_out(self) -> int:
@@ -258,35 +219,6 @@ def _in_unit_range(name: str, value: float) -> float:
     if not (isinstance(value, int | float) and math.isfinite(value) and 0.0 <= value <= 1.0):
         raise RetrieverError("bad_option", f"{name}: expected a number in [0, 1], got {value!r}")
     return float(value)
-
-
-def _person(landmarks: HolisticLandmarks, image: ImageArray) -> Person2D:
-    pose = landmarks.pose
-    assert pose is not None
-    height, width = image.shape[:2]
-    left, right = own_hands(landmarks)
-    person = person_from_holistic(
-        width=width,
-        height=height,
-        pose=np.column_stack([pose[:, :2], pose[:, 3:].min(axis=1)]),
-        left_hand=_flat(landmarks.left_hand) if left else None,
-        right_hand=_flat(landmarks.right_hand) if right else None,
-        face=_flat(landmarks.face),
-        left_hand_confidence=landmarks.left_hand_score,
-        right_hand_confidence=landmarks.right_hand_score,
-        face_confidence=landmarks.face_score,
-    )
-    return without_doubles(
-        replace(
-            person,
-            left_hand_world=landmarks.left_hand_world if left else None,
-            right_hand_world=landmarks.right_hand_world if right else None,
-        )
-    )
-
-
-def _flat(landmarks: FloatArray | None) -> FloatArray | None:
-    return None if landmarks is None else landmarks[:, :2]
 
 
 # Where arms cross, MediaPipe's crop of one hand may settle on the other one and follow it for a second, as
@@ -314,7 +246,6 @@ def own_hands(landmarks: HolisticLandmarks) -> _OwnHands:
 # other, in 17 of 120 images. Mean distance of their keypoints, in mean distances from the hand's middle,
 # below which two hands are one. Of one hand taken twice it was 0 to 0.2; of two hands that touch, 0.9.
 _SAME_HAND = 0.35
-_NOTHING = np.zeros((0, 3))
 
 
 def without_doubles(person: Person2D) -> Person2D:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from capsule_person import ROW, person_2d, pose
 
-from teo_skeleton_retriever.detectors.mediapipe.calibration import BODY_SHIFTS, corrected_body
+from teo_skeleton_retriever.detectors.mediapipe.calibration import corrected_body
 
 
 def at(distance: float) -> np.ndarray:
@@ -13,7 +13,7 @@ def at(distance: float) -> np.ndarray:
 
 
 def test_shoulders_are_moved_out_and_down() -> None:
-    moved = corrected_body(at(2.0), BODY_SHIFTS) - at(2.0)
+    moved = corrected_body(at(2.0)) - at(2.0)
     assert moved[ROW["LShoulder"], 0] > 0 > moved[ROW["RShoulder"], 0]  # the person faces the camera
     assert (moved[[ROW["LShoulder"], ROW["RShoulder"]], 1] > 0).all()
     assert not moved[ROW["Nose"]].any()
@@ -21,22 +21,22 @@ def test_shoulders_are_moved_out_and_down() -> None:
 
 def test_who_stands_twice_as_far_is_moved_half_as_much_in_the_image() -> None:
     """About: elbows and nose are nearer than the shoulders, and are seen larger from near."""
-    near, far = (corrected_body(at(d), BODY_SHIFTS) - at(d) for d in (1.5, 3.0))
+    near, far = (corrected_body(at(d)) - at(d) for d in (1.5, 3.0))
     np.testing.assert_allclose(near[ROW["LShoulder"]], 2 * far[ROW["LShoulder"]], rtol=0.1)
 
 
 def test_without_hips_shoulders_are_moved_out_by_what_else_is_seen() -> None:
-    whole = corrected_body(at(2.0), BODY_SHIFTS)
+    whole = corrected_body(at(2.0))
     half = at(2.0).copy()
     half[ROW["MidHip"]] = 0.0
-    difference = (whole - corrected_body(half, BODY_SHIFTS))[ROW["LShoulder"], :2]
+    difference = (whole - corrected_body(half))[ROW["LShoulder"], :2]
     trunk = (at(2.0)[ROW["MidHip"]] - at(2.0)[ROW["Neck"]])[:2]
     np.testing.assert_allclose(difference, 0.044 * trunk, atol=1e-9)
 
 
 def test_an_elbow_is_moved_away_from_its_shoulder() -> None:
     body = at(2.0)
-    moved = corrected_body(body, BODY_SHIFTS)
+    moved = corrected_body(body)
     for side in "LR":
         shoulder, elbow = ROW[f"{side}Shoulder"], ROW[f"{side}Elbow"]
         upper_arm = (body[elbow] - body[shoulder])[:2]
@@ -44,4 +44,4 @@ def test_an_elbow_is_moved_away_from_its_shoulder() -> None:
 
 
 def test_nobody_stays_nobody() -> None:
-    assert not corrected_body(np.zeros((25, 3)), BODY_SHIFTS).any()
+    assert not corrected_body(np.zeros((25, 3))).any()
