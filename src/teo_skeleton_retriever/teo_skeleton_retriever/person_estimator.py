@@ -12,10 +12,10 @@ import numpy as np
 from teo_skeleton_retriever.arrays import BoolArray, FloatArray, median
 from teo_skeleton_retriever.depth.body_depth import BodyDepth, BodyDepths, WristView
 from teo_skeleton_retriever.depth.depth_lookup import DepthLookup, Surfaces, ViewingRays, viewing_rays
+from teo_skeleton_retriever.depth.girdle_depth import by_outline
 from teo_skeleton_retriever.depth.hand_shape import HandFit, HandView, fit_hands
 from teo_skeleton_retriever.depth.head_depth import EARS, HEAD, HeadDepths, face_depths, head_depths
 from teo_skeleton_retriever.depth.occluders import occluders
-from teo_skeleton_retriever.depth.shoulder_outline import by_outline
 from teo_skeleton_retriever.depth.skin import BODY_DEPTHS, HAND_DEPTHS
 from teo_skeleton_retriever.detectors.detector import DetectionFrame
 from teo_skeleton_retriever.detectors.mediapipe.calibration import (

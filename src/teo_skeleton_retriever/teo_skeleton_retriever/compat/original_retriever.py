@@ -18,12 +18,12 @@ import numpy as np
 
 from teo_skeleton_retriever.arrays import BoolArray, DepthArray, FloatArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
-from teo_skeleton_retriever.compat.original_parameters import OriginalParameters
 from teo_skeleton_retriever.compat.original_skeleton import (
     CHAINS,
     LIMBS,
     PARENTS,
     SKELETON_STD,
+    OriginalParameters,
     OriginalSkeleton,
     body_planes,
     detect,

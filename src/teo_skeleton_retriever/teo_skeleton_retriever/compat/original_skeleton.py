@@ -1,23 +1,110 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The original's skeleton of one image: 17 keypoints ("SkeletonStd") from 2D keypoints and depth.
+"""The original's skeleton of one image: parameters, depth filter and 17 keypoints ("SkeletonStd").
 
 Source: robotology/assistive-rehab, library `skeleton` and module `skeletonRetriever` (BSD-3-Clause).
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
+import cv2
 import numpy as np
 
 from teo_skeleton_retriever.arrays import BoolArray, DepthArray, FloatArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
-from teo_skeleton_retriever.compat.original_parameters import OriginalParameters
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25, COCO_18, Layout
 from teo_skeleton_retriever.layouts.person_2d import Person2D, body_25_from_coco_18
+
+
+@dataclass(frozen=True, kw_only=True)
+class ContourDilation:
+    """Minimum filter over depth (morphological erosion): near surfaces grow, holes are filled.
+
+    The defaults are those in the code of the original (its shipped configurations: 8 px twice at 0.6 to 5 m,
+    off; 24 px twelve times at 1 to 6 m). It moves depth towards the camera by what the surface falls off in
+    `kernel_size * iterations / 2` pixels.
+
+    Attributes:
+        kernel_size: Diameter of the elliptical window [px]. An even one reaches further to the left and up.
+        iterations: How often the window is applied.
+        min_distance: Nearer is taken as noise and does not grow [m].
+        max_distance: Farther is taken as background and becomes unknown [m].
+
+    Raises:
+        RetrieverError: A value makes no filter.
+    """
+
+    kernel_size: int = 4
+    iterations: int = 3
+    min_distance: float = 1.0
+    max_distance: float = 4.0
+
+    def __post_init__(self) -> None:
+        if self.kernel_size < 1 or self.iterations < 0:
+            raise RetrieverError(
+                "bad_kernel",
+                f"expected a kernel >= 1 px, iterations >= 0, got {self.kernel_size}, {self.iterations}",
+            )
+        if not (math.isfinite(self.min_distance) and 0.0 <= self.min_distance < self.max_distance):
+            raise RetrieverError(
+                "bad_range",
+                f"expected 0 <= min_distance < max_distance, got {self.min_distance}, {self.max_distance}",
+            )
+
+    def apply(self, depth: DepthArray) -> DepthArray:
+        """Filter one image.
+
+        Args:
+            depth: [m], NaN or 0 where unknown. Shape (height, width).
+
+        Returns:
+            [m], NaN where unknown. Shape (height, width).
+        """
+        far = np.float32(np.finfo(np.float32).max)
+        with np.errstate(invalid="ignore"):
+            known = np.where(depth >= np.float32(self.min_distance), depth, far).astype(np.float32)
+        if self.iterations and known.size:
+            window = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (self.kernel_size, self.kernel_size))
+            known = cv2.erode(known, window, iterations=self.iterations).astype(np.float32)
+        known[~(known <= np.float32(self.max_distance))] = np.nan
+        known[known <= 0.0] = np.nan
+        return known
+
+
+@dataclass(frozen=True, kw_only=True)
+class OriginalParameters:
+    """Named as in the original's configuration file, `group::name`.
+
+    Attributes:
+        keys_recognition_confidence: Keypoints below it are not seen (skeleton::keys-recognition-confidence).
+        keys_recognition_percentage: Share of the 17 keypoints that a skeleton must have.
+        keys_acceptable_misses: Images for which a keypoint that is not seen is held.
+        min_acceptable_path: Length of the longest path through a skeleton [m].
+        tracking_threshold: How far a pivot may move between images [px].
+        time_to_live: How long a skeleton that is not seen is kept [s].
+        depth_filter: By depth::kernel-size, depth::iterations, depth::min-distance and depth::max-distance;
+            None for depth::enable off.
+        filter_keypoint_order: Past samples of the median of a keypoint.
+        filter_limblength_order: Past samples of the median of a limb's length.
+        optimize_limblength: Whether limbs are moved so that their lengths hold.
+    """
+
+    keys_recognition_confidence: float = 0.3
+    keys_recognition_percentage: float = 0.3
+    keys_acceptable_misses: int = 5
+    min_acceptable_path: float = 0.5
+    tracking_threshold: float = 50.0
+    time_to_live: float = 1.0
+    depth_filter: ContourDilation | None = field(default_factory=ContourDilation)
+    filter_keypoint_order: int = 3
+    filter_limblength_order: int = 40
+    optimize_limblength: bool = True
+
 
 # The parent of each keypoint, in the order of the data.
 PARENTS: dict[str, str | None] = {

@@ -11,9 +11,14 @@ import numpy as np
 import pytest
 
 from teo_skeleton_retriever.camera.camera_model import CameraModel
-from teo_skeleton_retriever.compat.original_parameters import OriginalParameters
 from teo_skeleton_retriever.compat.original_retriever import OriginalRetriever
-from teo_skeleton_retriever.compat.original_skeleton import SKELETON_STD, OriginalSkeleton, detect, is_valid
+from teo_skeleton_retriever.compat.original_skeleton import (
+    SKELETON_STD,
+    OriginalParameters,
+    OriginalSkeleton,
+    detect,
+    is_valid,
+)
 from teo_skeleton_retriever.depth.limb_solver import FastLimbSolver
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25, COCO_18

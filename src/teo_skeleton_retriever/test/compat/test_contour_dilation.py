@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.ndimage import minimum_filter
 
-from teo_skeleton_retriever.compat.original_parameters import ContourDilation
+from teo_skeleton_retriever.compat.original_skeleton import ContourDilation
 from teo_skeleton_retriever.errors import RetrieverError
 
 images = arrays(

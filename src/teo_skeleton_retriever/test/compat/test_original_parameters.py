@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from teo_skeleton_retriever.compat.original_parameters import OriginalParameters, original_parameters_from
+from teo_skeleton_retriever.compat.compat_retriever import original_parameters_from
+from teo_skeleton_retriever.compat.original_skeleton import OriginalParameters
 from teo_skeleton_retriever.errors import RetrieverError
 
 

@@ -48,26 +48,17 @@ def test_solutions_keep_their_rays_and_bounds(solver: FastLimbSolver | IpoptLimb
 
 
 @pytest.mark.parametrize("joints", [3, 4])
-def test_the_fast_solve_ends_where_ipopt_ends_when_the_end_is_one(joints: int) -> None:
+def test_the_fast_solve_ends_where_ipopt_ends_or_as_near_to_the_lengths(joints: int) -> None:
     """Ipopt's own variants disagree where several depths are as good: those chains say nothing."""
     exact = IpoptLimbSolver({**CONVERGED_OPTIONS, "hessian_approximation": "exact"})
-    unique = same = 0
-    for chain in chains(joints, 80):
-        truth = CONVERGED.solve(chain).depths
-        if np.abs(truth - exact.solve(chain).depths).max() > 1e-4:
-            continue
-        unique += 1
-        same += bool(np.abs(FAST.solve(chain).depths - truth).max() < 1e-3)
-    assert unique > 60
-    assert same >= 0.95 * unique
-
-
-@pytest.mark.parametrize("joints", [3, 4])
-def test_the_fast_solve_is_as_good_as_ipopt_almost_everywhere(joints: int) -> None:
-    worse = [
-        math.sqrt(chain.cost(FAST.solve(chain).depths)) - math.sqrt(chain.cost(CONVERGED.solve(chain).depths))
-        for chain in chains(joints, 60)
-    ]
+    same, worse = [], []
+    for chain in chains(joints, 40):
+        truth, found = CONVERGED.solve(chain).depths, FAST.solve(chain).depths
+        worse.append(math.sqrt(chain.cost(found)) - math.sqrt(chain.cost(truth)))
+        if np.abs(truth - exact.solve(chain).depths).max() <= 1e-4:
+            same.append(bool(np.abs(found - truth).max() < 1e-3))
+    assert len(same) > 30
+    assert np.mean(same) >= 0.95
     # 0.5e-3 m^2 is a millimetre of a limb of 0.25 m.
     assert np.mean(np.array(worse) < 0.5e-3) >= 0.95
 

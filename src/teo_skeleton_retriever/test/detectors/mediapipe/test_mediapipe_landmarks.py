@@ -23,7 +23,7 @@ HAND = np.zeros((21, 3))
 
 
 def landmarks(**seen: Any) -> HolisticLandmarks:
-    """Landmarks of a pose whose place tells which they are: x = i / 100, y = i / 50, visibility = 1 - i / 100."""
+    """Landmarks whose place tells which they are: x = i / 100, y = i / 50, visibility = 1 - i / 100."""
     i = np.arange(33.0)
     parts: dict[str, Any] = dict.fromkeys(HolisticLandmarks.__dataclass_fields__)
     sure = {name: 1.0 for name in parts if name.endswith(("_score", "_side"))}
