@@ -5,8 +5,6 @@
 from __future__ import annotations
 
 import json
-import os
-import tempfile
 from pathlib import Path
 
 from teo_skeleton_retriever.arrays import FloatArray
@@ -29,19 +27,8 @@ def format_frame(frame: People) -> str:
 
 
 def write_frame(path: Path, frame: People) -> None:
-    """Write one file so that a program that watches the folder never sees half of it.
-
-    Raises:
-        OSError: the folder is missing or not writable.
-    """
-    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8") as file:
-            file.write(format_frame(frame))
-        Path(temporary).replace(path)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
+    """Write one file."""
+    path.write_text(format_frame(frame), encoding="utf-8")
 
 
 def _person(person: Person2D) -> dict[str, object]:

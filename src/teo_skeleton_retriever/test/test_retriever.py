@@ -13,7 +13,6 @@ import pytest
 from capsule_person import CAMERA, ROW, Pose, frame, person_2d, pose
 
 from teo_skeleton_retriever.camera.camera_model import CameraModel
-from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 from teo_skeleton_retriever.retriever import (
     DetectionFrame,
@@ -71,13 +70,6 @@ def test_two_thirds_of_the_depth_may_be_missing() -> None:
     skeleton, truth = only(found[-1]), signing(29 / RATE)
     assert error(skeleton.body.points[ARMS], truth.body[ARMS]) < 0.03
     assert error(skeleton.right_hand.points, truth.right_hand) < 0.02
-
-
-def test_hands_are_found_without_an_imagined_shape() -> None:
-    retriever = Retriever(AT_ONCE)
-    found = follow(retriever, 1.0, lambda t: frame(t, signing(t), noise=0.003, imagined=False))
-    skeleton, truth = only(found[-1]), signing(29 / RATE)
-    assert error(skeleton.left_hand.points, truth.left_hand) < 0.02
 
 
 def test_sigma_tells_how_far_joints_are_off() -> None:
@@ -268,12 +260,6 @@ def test_every_layout_of_bodies_is_taken() -> None:
         # The right forearm points at the camera, 12 cm before its own elbow.
         assert status.pop(ROW["RElbow"]) == KeypointStatus.HELD
         assert set(status.values()) == {KeypointStatus.MEASURED}
-
-
-def test_depth_of_another_size_than_the_cameras_is_refused() -> None:
-    with pytest.raises(RetrieverError) as caught:
-        DetectionFrame(0.0, (), np.zeros((10, 10), np.float32), CAMERA)
-    assert caught.value.code == "wrong_size"
 
 
 @pytest.mark.slow

@@ -165,11 +165,6 @@ def test_a_film_without_an_image_is_not_said_to_be_written(seen, tmp_path):
     assert f"wrote {film}" not in stdout
 
 
-def test_nothing_half_written_is_left_behind(bag, seen, tmp_path):
-    run(bag, "--out", tmp_path / "x.mcap", "--video", tmp_path / "none" / "x.mp4", *seen)
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["keypoints", "take"]
-
-
 def changed(tmp_path, name, change, images=IMAGES):
     """A bag whose depth messages are others."""
     stored = [

@@ -10,8 +10,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from openpose_writer import format_frame, frame_path, write_frame
 
 from teo_skeleton_retriever.detectors.openpose_files import People
@@ -174,14 +172,6 @@ def test_every_keypoint_scale_comes_back_to_pixels(
     body[3] = *written, 0.9
     given_back = KeypointScale(scale, resolution).to_pixels(Person2D(body=body), WIDTH, HEIGHT).body
     np.testing.assert_allclose(given_back[3], [*pixel, 0.9], atol=2e-3)
-
-
-@given(st.sampled_from([0, 3, 4]))
-def test_an_unseen_keypoint_is_zero_in_every_scale(scale: int) -> None:
-    unseen = -1.0 if scale == 4 else 0.0
-    hand = np.column_stack([np.full((21, 2), unseen), np.zeros(21)])
-    person = KeypointScale(scale, None).to_pixels(Person2D(left_hand=hand), WIDTH, HEIGHT)
-    assert not person.left_hand.any()
 
 
 def test_replay_gives_the_people_of_the_nearest_time() -> None:

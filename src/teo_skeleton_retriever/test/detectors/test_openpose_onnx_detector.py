@@ -149,13 +149,3 @@ def test_maps_that_are_not_of_the_images_shape_are_told(tmp_path: Path) -> None:
 @pytest.mark.parametrize("resolution", [(-1, -1), (320, 100), (0, 160), (320,), (320.0, 240), (-16, 160)])
 def test_a_resolution_that_is_none_is_refused(tmp_path: Path, resolution: Any) -> None:
     assert code_of(OpenPoseOnnxDetector, model=tmp_path, net_resolution=resolution) == "bad_resolution"
-
-
-def test_images_and_closing_are_as_with_every_detector(tmp_path: Path) -> None:
-    detector = OpenPoseOnnxDetector(model=given_maps(tmp_path / "a.onnx", []), net_resolution=NET)
-    assert code_of(detector.detect, np.zeros((48, 64), np.uint8), 0.0) == "bad_image"
-    assert code_of(detector.detect, np.zeros((1, 4000, 3), np.uint8), 0.0) == "bad_image"
-    assert detector.detect(np.zeros((1, 8, 3), np.uint8), 0.0) == ()
-    detector.close()
-    detector.close()
-    assert code_of(detector.detect, np.zeros((48, 64, 3), np.uint8), 0.0) == "closed"

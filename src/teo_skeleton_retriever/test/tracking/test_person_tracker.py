@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from teo_skeleton_retriever.errors import RetrieverError
-from teo_skeleton_retriever.tracking.person_tracker import PersonTracker
+from teo_skeleton_retriever.tracking.person_tracker import PersonTracker, SignerChoice
 
 RATE = 30.0  # [1/s]
 NOWHERE = np.full(3, math.nan)
@@ -76,12 +76,6 @@ def test_who_returns_within_the_memory_is_who_they_were_and_later_is_new() -> No
         assert (tracker.step(gap, [place]) == first) is same
 
 
-def test_someone_far_away_is_not_who_left() -> None:
-    tracker = PersonTracker(AT_ONCE)
-    assert tracker.step(0.0, [np.array([-1.0, 0.0, 2.0])]) == [0]
-    assert tracker.step(1.0, [np.array([1.0, 0.0, 2.0])]) == [1]
-
-
 def test_as_many_as_possible_are_recognised() -> None:
     """The nearest pair is not taken first if that leaves somebody unrecognised."""
     tracker = PersonTracker(AT_ONCE)
@@ -128,3 +122,45 @@ def test_a_time_that_is_none_is_refused(time: float) -> None:
     with pytest.raises(RetrieverError) as caught:
         PersonTracker().step(time, [])
     assert caught.value.code == "bad_time"
+
+
+FAR_AHEAD = np.array([0.0, 0.0, 2.5])
+NEAR_ASIDE = np.array([0.8, 0.0, 1.5])
+
+
+def test_the_nearest_or_the_most_central_is_chosen() -> None:
+    people = {4: FAR_AHEAD, 7: NEAR_ASIDE}
+    assert SignerChoice("nearest", 3.0).step(0.0, people) == 7
+    assert SignerChoice("central", 3.0).step(0.0, people) == 4
+
+
+def test_a_signer_stays_when_somebody_comes_nearer() -> None:
+    choice = SignerChoice("nearest", 3.0)
+    assert choice.step(0.0, {1: FAR_AHEAD}) == 1
+    assert choice.step(0.1, {1: FAR_AHEAD, 2: NEAR_ASIDE}) == 1
+
+
+def test_a_signer_who_is_hidden_is_waited_for_then_given_up() -> None:
+    choice = SignerChoice("nearest", 2.0)
+    choice.step(0.0, {1: FAR_AHEAD})
+    assert choice.step(1.9, {2: NEAR_ASIDE}) is None
+    assert choice.signer == 1
+    assert choice.step(2.1, {2: NEAR_ASIDE}) == 2
+    assert choice.step(2.2, {1: FAR_AHEAD, 2: NEAR_ASIDE}) == 2
+
+
+def test_a_locked_signer_is_waited_for_without_end() -> None:
+    choice = SignerChoice("nearest", 0.1)
+    choice.lock(9)
+    assert choice.step(0.0, {1: FAR_AHEAD}) is None
+    assert choice.step(1e6, {1: FAR_AHEAD}) is None
+    assert choice.step(1e6 + 1, {1: FAR_AHEAD, 9: NEAR_ASIDE}) == 9
+
+
+def test_after_unlocking_the_signer_stays_until_they_leave() -> None:
+    choice = SignerChoice("nearest", 0.5)
+    choice.lock(1)
+    choice.step(0.0, {1: FAR_AHEAD, 2: NEAR_ASIDE})
+    choice.unlock()
+    assert choice.step(0.1, {1: FAR_AHEAD, 2: NEAR_ASIDE}) == 1
+    assert choice.step(1.0, {2: NEAR_ASIDE}) == 2

@@ -83,17 +83,6 @@ def test_who_asks_for_fewer_people_is_not_told_of_others() -> None:
     assert following.left_out == 0
 
 
-def test_once_the_fifth_has_left_nobody_is_left_out() -> None:
-    room = Room(5)
-    following = follower(room)
-    for _ in range(ALL_SEEN_TWICE):
-        following.follow(IMAGE)
-    room.noses.pop()
-    for _ in range(ALL_SEEN_TWICE):
-        following.follow(IMAGE)
-    assert following.left_out == 0
-
-
 def test_what_only_one_glance_takes_for_a_person_is_nobody() -> None:
     room = Room(5)
     fifth = room.noses.pop()
