@@ -148,13 +148,13 @@ def test_hidden_parts_are_left_open_and_the_rest_stays_together(hidden: tuple[st
 
 
 def test_noise_hides_nobody_and_invents_nobody() -> None:
-    rng, size = np.random.default_rng(1), (320, 240)
-    people = [person(90, 60, 170), person(220, 55, 180)]
-    maps, fields = draw(people, size)
+    rng = np.random.default_rng(1)
+    people = [person(200, 80, 280), person(430, 90, 270)]
+    maps, fields = draw(people, SIZE)
     noisy_maps = maps + rng.normal(0.0, 0.06, maps.shape).astype(np.float32)
     noisy_fields = fields + rng.normal(0.0, 0.1, fields.shape).astype(np.float32)
-    assert_same_people(decode(noisy_maps, noisy_fields, size), people, near=4.0)
-    assert decode(noisy_maps - maps, noisy_fields - fields, size) == ()
+    assert_same_people(decode(noisy_maps, noisy_fields), people, near=4.0)
+    assert decode(noisy_maps - maps, noisy_fields - fields) == ()
 
 
 def test_of_noise_only_the_strongest_peaks_are_looked_at() -> None:
