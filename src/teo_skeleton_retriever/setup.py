@@ -46,9 +46,9 @@ setup(
         ],
         "teo_skeleton_retriever.detectors": [
             f"mediapipe = {PACKAGE}.detectors.mediapipe.mediapipe_detector:MediaPipeDetector",
-            f"openpose_json = {PACKAGE}.detectors.openpose.openpose_json_detector:OpenPoseJsonDetector",
-            f"openpose_onnx = {PACKAGE}.paf.openpose_onnx_detector:OpenPoseOnnxDetector",
-            f"replay = {PACKAGE}.detectors.openpose.replay_detector:ReplayDetector",
+            f"openpose_json = {PACKAGE}.detectors.openpose_json_detector:OpenPoseJsonDetector",
+            f"openpose_onnx = {PACKAGE}.detectors.openpose_onnx_detector:OpenPoseOnnxDetector",
+            f"replay = {PACKAGE}.detectors.openpose_json_detector:ReplayDetector",
         ],
         "teo_skeleton_retriever.retrievers": [
             f"skeleton_retriever = {PACKAGE}.compat.compat_retriever:compat_retriever",

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 from .camera.camera_model import CameraModel as CameraModel
 from .camera.rgbd_image import RgbdImage as RgbdImage
+from .detectors.detector import DETECTORS as DETECTORS
 from .detectors.detector import DetectionFrame as DetectionFrame
-from .detectors.factory import DETECTORS as DETECTORS
-from .detectors.factory import make_detector as make_detector
+from .detectors.detector import make_detector as make_detector
 from .errors import RetrieverError as RetrieverError
 from .image_retriever import (
     ImageRetriever as ImageRetriever,

@@ -9,19 +9,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from teo_skeleton_retriever.arrays import FloatArray, median
+from teo_skeleton_retriever.arrays import BoolArray, FloatArray, median
 from teo_skeleton_retriever.depth.body_depth import BodyDepth, BodyDepths, WristView
-from teo_skeleton_retriever.depth.depth_lookup import DepthLookup, Surfaces
-from teo_skeleton_retriever.depth.filtered_keypoints import keypoints_of, points_of
-from teo_skeleton_retriever.depth.hand_depth import HandFit, HandView, fit_hands
+from teo_skeleton_retriever.depth.depth_lookup import DepthLookup, Surfaces, ViewingRays, viewing_rays
+from teo_skeleton_retriever.depth.girdle_depth import by_outline
+from teo_skeleton_retriever.depth.hand_shape import HandFit, HandView, fit_hands
 from teo_skeleton_retriever.depth.head_depth import EARS, HEAD, HeadDepths, face_depths, head_depths
 from teo_skeleton_retriever.depth.occluders import occluders
-from teo_skeleton_retriever.depth.shoulder_outline import by_outline
 from teo_skeleton_retriever.depth.skin import BODY_DEPTHS, HAND_DEPTHS
-from teo_skeleton_retriever.depth.viewing_rays import ViewingRays, viewing_rays
 from teo_skeleton_retriever.detectors.detector import DetectionFrame
 from teo_skeleton_retriever.detectors.mediapipe.calibration import (
-    BODY_SHIFTS,
     EAR_BEHIND,
     MEDIAPIPE_HAND_BONES,
     corrected_body,
@@ -123,7 +120,7 @@ class PersonEstimator:
         fits = self._fit_hands(person, seen, surfaces, before)
         hands = {side: fit.points for side, fit in fits.items()}
         trunk = surfaces.part(GIRDLE)
-        arms = occluders(points_of(before.part(BODY)), hands)
+        arms = occluders(before.part(BODY).points, hands)
         trunk = trunk.without(arms.shown(seen.rays[GIRDLE], trunk.depth))
         body = self._find_body(seen, surfaces.replaced(GIRDLE, trunk), before, fits)
         depth[BODY], sigma[BODY], optimised[BODY] = body.depths, body.sigma, body.optimised
@@ -162,7 +159,7 @@ class PersonEstimator:
         away = np.minimum(output.age, self._parameters.hold_time)
         carried = np.where(output.fresh, 0.0, np.where(_ON_HANDS, _CARRIED, DRIFT * away))
         guessed = carried + np.where(hidden, _GUESSED, 0.0)
-        found = keypoints_of(
+        found = _keypoints_of(
             output,
             seen,
             optimised=optimised,
@@ -203,7 +200,7 @@ class PersonEstimator:
         keypoints = np.zeros((N, 3))
         keypoints[BODY] = as_body_25(person.body)
         if self._parameters.detector == "mediapipe":
-            keypoints[BODY] = corrected_body(keypoints[BODY], BODY_SHIFTS)
+            keypoints[BODY] = corrected_body(keypoints[BODY])
             keypoints[_SHOULDERS, :2] = widened(keypoints[_SHOULDERS, :2], self._size.widening)
             keypoints[BODY], outlined = by_outline(
                 keypoints[BODY],
@@ -296,3 +293,46 @@ def _in_space(rays: FloatArray, depths: FloatArray) -> FloatArray:
 def _middle(values: FloatArray) -> float:
     known = values[np.isfinite(values)]
     return median(known) if len(known) else float("nan")
+
+
+def _keypoints_of(
+    output: FilterOutput,
+    seen: ViewingRays,
+    *,
+    optimised: BoolArray,
+    hidden: BoolArray,
+    bias: FloatArray,
+    max_sigma: FloatArray,
+    memory: FloatArray,
+) -> Keypoints3D:
+    """Make keypoints with status, confidence and sigma of a filter's estimate.
+
+    Args:
+        output: Of the filter.
+        seen: By the detector in this image.
+        optimised: Keypoints whose depth of this image follows from others. Shape (n,).
+        hidden: Keypoints before which something else lies in this image: held, though the detector guesses
+            them. Shape (n,).
+        bias: Standard deviation across the ray and along it of what no averaging removes: how the detector
+            and the skin differ from person to person [m]. Shape (n, 2).
+        max_sigma: Keypoints less certain than this are lost [m]. Shape (n,).
+        memory: Confidence that each was last seen with. Shape (n,).
+    """
+    points = output.points
+    across = np.hypot(output.sigma[:, :2] * output.depth[:, None], bias[:, :1])
+    along = np.hypot(output.sigma[:, 2], bias[:, 1])
+    sigma = np.column_stack([np.hypot(across, output.rays * along[:, None]), along])
+    with np.errstate(invalid="ignore"):
+        lost = ~(sigma.max(axis=1) <= max_sigma)
+    status = np.where(
+        seen.seen & output.fresh & ~hidden,
+        np.where(optimised, KeypointStatus.OPTIMISED, KeypointStatus.MEASURED),
+        KeypointStatus.HELD,
+    )
+    return Keypoints3D(
+        points=np.where(lost[:, None], np.nan, points),
+        confidence=np.where(lost, 0.0, np.where(seen.seen, seen.confidence, memory)),
+        status=np.where(lost, KeypointStatus.LOST, status).astype(np.uint8),
+        sigma=np.where(lost[:, None], np.nan, sigma),
+        pixels=seen.pixels,
+    )

@@ -13,15 +13,13 @@ from pathlib import Path
 import numpy as np
 from std_msgs.msg import Header
 
-from teo_skeleton_retriever.bags.bag_images import BagImage, BagImages
+from teo_skeleton_retriever.bags.bag_images import BagImage, BagImages, Topics, choose_topics
 from teo_skeleton_retriever.bags.bag_reader import Bag
-from teo_skeleton_retriever.bags.topic_choice import Topics, choose_topics
 from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP
 from teo_skeleton_retriever.detectors import make_detector
 from teo_skeleton_retriever.detectors.detector import left_out_sentence
-from teo_skeleton_retriever.empty_space import nobody_in_space
 from teo_skeleton_retriever.errors import RetrieverError
-from teo_skeleton_retriever.image_retriever import ImageRetriever, Retrieved
+from teo_skeleton_retriever.image_retriever import ImageRetriever, Retrieved, nobody_in_space
 from teo_skeleton_retriever.output.messages import skeleton_array
 from teo_skeleton_retriever.output.skeleton_bag import skeleton_bag
 from teo_skeleton_retriever.retriever import Retriever

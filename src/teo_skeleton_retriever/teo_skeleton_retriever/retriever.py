@@ -7,8 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray, median
-from teo_skeleton_retriever.depth.depth_lookup import DepthLookup
-from teo_skeleton_retriever.depth.viewing_rays import viewing_rays
+from teo_skeleton_retriever.depth.depth_lookup import DepthLookup, viewing_rays
 from teo_skeleton_retriever.detectors.detector import DetectionFrame
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D, as_body_25
@@ -21,13 +20,14 @@ from teo_skeleton_retriever.layouts.skeleton_3d import (
 )
 from teo_skeleton_retriever.person_estimator import PersonEstimator
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
-from teo_skeleton_retriever.tracking.person_tracker import PersonTracker, TrackerSettings
-from teo_skeleton_retriever.tracking.signer_choice import SignerChoice
+from teo_skeleton_retriever.tracking.person_tracker import PersonTracker, SignerChoice
 
 __all__ = ["DetectionFrame", "KeypointStatus", "Keypoints3D", "Retriever", "RetrieverParameters", "Skeleton"]
 
 _TRUNK = [BODY_25.index[name] for name in ("Neck", "RShoulder", "LShoulder", "MidHip", "RHip", "LHip")]
 _USUAL = 1.5  # [m] distance of a signer; only sets how much around a keypoint is looked at
+# [m] Around a trunk's keypoint that depth is looked at, and between the depths of different surfaces there.
+_RADIUS, _GAP = 0.03, 0.06
 _TORN = 0.3  # [m] between the depths of a trunk's keypoints when something hides a part of it
 _LEAST_TRUNK = 2  # keypoints of the trunk that say where it is; with fewer everything that is seen is asked
 
@@ -42,11 +42,8 @@ class Retriever:
         """Build a retriever that has seen nobody yet."""
         self._parameters = parameters or RetrieverParameters()
         self._lookup = DepthLookup(nearest=self._parameters.min_depth, farthest=self._parameters.max_depth)
-        self._signer = SignerChoice(
-            rule="central" if self._parameters.signer_rule == "central" else "nearest",
-            patience=self._parameters.signer_patience,
-        )
-        self._tracker = PersonTracker(TrackerSettings(newcomer_images=int(self._parameters.newcomer_images)))
+        self._signer = SignerChoice(self._parameters.signer_rule, self._parameters.signer_patience)
+        self._tracker = PersonTracker(int(self._parameters.newcomer_images))
         self._people: dict[int, PersonEstimator] = {}
         self._time: float | None = None
 
@@ -103,7 +100,12 @@ class Retriever:
         seen = viewing_rays(body, frame.camera, self._parameters.min_confidence)
         for rows in (_TRUNK, list(range(len(body)))):
             surfaces = self._lookup.surfaces(
-                frame.depth, seen.pixels[rows], focal=frame.camera.fx, distance=np.full(len(rows), _USUAL)
+                frame.depth,
+                seen.pixels[rows],
+                focal=frame.camera.fx,
+                distance=np.full(len(rows), _USUAL),
+                radius=_RADIUS,
+                gap=_GAP,
             )
             depth = surfaces.nearest().depth
             known = np.isfinite(depth)

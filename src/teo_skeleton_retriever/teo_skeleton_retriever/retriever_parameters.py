@@ -4,48 +4,31 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
-from dataclasses import dataclass
-from typing import Any, NamedTuple
+from dataclasses import dataclass, field, fields
+from functools import cache
+from typing import Any
 
+from teo_common.parameters import ParameterRow
 from teo_skeleton_retriever.errors import RetrieverError
 
 
-class ParameterInfo(NamedTuple):
-    """What is to be known of a parameter.
-
-    Attributes:
-        description: What it does, and why its default is what it is.
-        unit: "" if it has none.
-        lowest: Least value; None for a switch or a choice.
-        highest: Greatest value; likewise.
-        choices: Allowed words; empty unless it is a choice.
-    """
-
-    description: str
-    unit: str = ""
-    lowest: float | None = None
-    highest: float | None = None
-    choices: tuple[str, ...] = ()
-
-
-def _number(default: float | int, unit: str, lowest: float, highest: float, description: str) -> Any:
-    info = ParameterInfo(description, unit, lowest, highest)
-    return dataclasses.field(default=default, metadata={"info": info})
+def _number(default: float | int, unit: str, low: float, high: float, description: str) -> Any:
+    told = f"{description} [{unit}]" if unit else description
+    return field(default=default, metadata={"low": low, "high": high, "description": told})
 
 
 def _switch(default: bool, description: str) -> Any:
-    return dataclasses.field(default=default, metadata={"info": ParameterInfo(description)})
+    return field(default=default, metadata={"description": description})
 
 
 def _choice(default: str, choices: tuple[str, ...], description: str) -> Any:
-    return dataclasses.field(default=default, metadata={"info": ParameterInfo(description, choices=choices)})
+    return field(default=default, metadata={"choices": choices, "description": description})
 
 
 @dataclass(frozen=True, kw_only=True)
 class RetrieverParameters:
-    """Settings of a `Retriever`; `parameter_info()` describes each.
+    """Settings of a `Retriever`; `parameter_rows()` describes each.
 
     Raises:
         RetrieverError: A value is not of its kind or outside its range.
@@ -112,29 +95,33 @@ class RetrieverParameters:
     )
 
     def __post_init__(self) -> None:
-        for name, info in parameter_info().items():
-            _check(name, getattr(self, name), info)
+        for row in parameter_rows():
+            _check(row, getattr(self, row.name))
         if self.min_depth >= self.max_depth:
             raise RetrieverError(
                 "bad_range", f"expected min_depth < max_depth, got {self.min_depth} and {self.max_depth}"
             )
 
 
-def parameter_info() -> dict[str, ParameterInfo]:
-    """Describe the parameters by name, in the order of their declaration."""
-    return {field.name: field.metadata["info"] for field in dataclasses.fields(RetrieverParameters)}
+@cache
+def parameter_rows() -> tuple[ParameterRow, ...]:
+    """Describe the parameters, in the order of their declaration."""
+    return tuple(
+        ParameterRow(name=one.name, default=getattr(RetrieverParameters, one.name), **one.metadata)
+        for one in fields(RetrieverParameters)
+    )
 
 
-def _check(name: str, value: object, info: ParameterInfo) -> None:
-    if info.choices:
-        if value not in info.choices:
-            raise RetrieverError("unknown_choice", f"{name}: expected one of {info.choices}, got {value!r}")
-    elif info.lowest is None or info.highest is None:
+def _check(row: ParameterRow, value: object) -> None:
+    if row.choices:
+        if value not in row.choices:
+            raise RetrieverError(
+                "unknown_choice", f"{row.name}: expected one of {row.choices}, got {value!r}"
+            )
+    elif row.low is None or row.high is None:
         if not isinstance(value, bool):
-            raise RetrieverError("wrong_type", f"{name}: expected true or false, got {value!r}")
+            raise RetrieverError("wrong_type", f"{row.name}: expected true or false, got {value!r}")
     elif isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise RetrieverError("wrong_type", f"{name}: expected a number, got {value!r}")
-    elif not (math.isfinite(value) and info.lowest <= value <= info.highest):
-        raise RetrieverError(
-            "out_of_range", f"{name}: expected {info.lowest} to {info.highest} {info.unit}, got {value}"
-        )
+        raise RetrieverError("wrong_type", f"{row.name}: expected a number, got {value!r}")
+    elif not (math.isfinite(value) and row.low <= value <= row.high):
+        raise RetrieverError("out_of_range", f"{row.name}: expected {row.low} to {row.high}, got {value}")

@@ -16,8 +16,6 @@ from rosbags.rosbag2 import StoragePlugin
 from rosbags.rosbag2 import Writer as Ros2Writer
 from rosbags.typesys import Stores, get_typestore
 
-from teo_skeleton_retriever.detectors.openpose.openpose_files import OpenPoseFrame
-
 COLOR, DEPTH = "/camera/color/image_raw", "/camera/aligned_depth_to_color/image_raw"
 INFO = "/camera/color/camera_info"
 IMAGE, COMPRESSED = "sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"
@@ -66,7 +64,7 @@ def write_keypoints(folder: Path, images: int) -> Path:
     """What OpenPose would have seen in each image."""
     folder.mkdir()
     for i in range(images):
-        write_frame(frame_path(folder, f"{i:012d}"), OpenPoseFrame(people=(take.person(),)))
+        write_frame(frame_path(folder, f"{i:012d}"), (take.person(),))
     return folder
 
 

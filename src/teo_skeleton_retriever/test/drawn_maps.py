@@ -12,7 +12,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from teo_skeleton_retriever.paf.pose_network import BODY_25_MODEL, PafModel
+from teo_skeleton_retriever.detectors.part_affinity import BODY_25_MODEL, PafModel
 
 STRIDE = 8
 """Pixels of the network's input for each cell of its output."""

@@ -5,12 +5,10 @@
 from __future__ import annotations
 
 import json
-import os
-import tempfile
 from pathlib import Path
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_skeleton_retriever.detectors.openpose.openpose_files import PARTS, VERSION, OpenPoseFrame
+from teo_skeleton_retriever.detectors.openpose_files import PARTS, VERSION, People
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
 DIGITS = 6
@@ -22,30 +20,19 @@ def frame_path(folder: Path, name: str) -> Path:
     return folder / f"{name}_keypoints.json"
 
 
-def format_frame(frame: OpenPoseFrame) -> str:
+def format_frame(frame: People) -> str:
     """Write people as the text of one file; it is always of the present version."""
-    data: dict[str, object] = {"version": VERSION, "people": [_person(person) for person in frame.people]}
+    data: dict[str, object] = {"version": VERSION, "people": [_person(person) for person in frame]}
     return json.dumps(data, separators=(",", ":"))
 
 
-def write_frame(path: Path, frame: OpenPoseFrame) -> None:
-    """Write one file so that a program that watches the folder never sees half of it.
-
-    Raises:
-        OSError: the folder is missing or not writable.
-    """
-    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8") as file:
-            file.write(format_frame(frame))
-        Path(temporary).replace(path)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
+def write_frame(path: Path, frame: People) -> None:
+    """Write one file."""
+    path.write_text(format_frame(frame), encoding="utf-8")
 
 
 def _person(person: Person2D) -> dict[str, object]:
-    parts: dict[str, object] = {part.keys[0]: _numbers(getattr(person, part.attribute)) for part in PARTS}
+    parts: dict[str, object] = {keys[0]: _numbers(getattr(person, part)) for part, keys in PARTS.items()}
     unused = {f"{key}_keypoints_3d": [] for key in ("pose", "face", "hand_left", "hand_right")}
     return {"person_id": [-1], **parts, **unused}
 

@@ -47,14 +47,6 @@ def test_a_recording_becomes_a_bag_of_skeletons_and_a_report(bag, keypoints, tmp
     assert report.own_time > 0.0
 
 
-@pytest.mark.parametrize("form", ["ros1", "file"])
-def test_ros_1_bags_and_single_files_are_recordings_too(bag, keypoints, form, tmp_path):
-    path = bag / "take.mcap"
-    if form == "ros1":
-        path = bag_take.write_ros1(tmp_path / "take.bag", list(bag_take.messages(IMAGES)))
-    assert retrieve(path, keypoints).images == IMAGES
-
-
 def test_progress_counts_every_message(bag, keypoints):
     told: list[tuple[int, int]] = []
     retrieve(bag, keypoints, on_progress=lambda *progress: told.append(progress))
@@ -131,15 +123,6 @@ def test_several_topics_that_may_be_meant_are_refused_until_one_is_named(tmp_pat
     }
     report = retrieve(bag, keypoints, **named)
     assert (report.images, tuple(report.topics)) == (IMAGES, tuple(named.values()))
-
-
-def test_what_cannot_be_read_or_written_is_refused(bag, keypoints, tmp_path):
-    with pytest.raises(RetrieverError, match="missing_bag"):
-        retrieve(tmp_path / "none.mcap", keypoints)
-    with pytest.raises(RetrieverError, match="bad_name"):
-        retrieve(bag, keypoints, out=tmp_path / "x.bag")
-    with pytest.raises(RetrieverError, match="missing_folder"):
-        retrieve(bag, keypoints, out=tmp_path / "none" / "x.mcap")
 
 
 def test_the_input_is_looked_at_before_the_detector_is_loaded(bag, tmp_path, monkeypatch):

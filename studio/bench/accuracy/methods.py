@@ -11,7 +11,7 @@ import numpy as np
 
 from accuracy.takes import TakeFrame
 from teo_skeleton_retriever.arrays import DepthArray, FloatArray
-from teo_skeleton_retriever.compat.original_parameters import OriginalParameters
+from teo_skeleton_retriever.compat.original_skeleton import OriginalParameters
 from teo_skeleton_retriever.compat.original_retriever import OriginalRetriever
 from teo_skeleton_retriever.compat.original_skeleton import FROM_BODY_25, SKELETON_STD
 from teo_skeleton_retriever.layouts.layout import BODY_25

@@ -156,8 +156,8 @@ def _colour_images(
     """
     # Only who draws needs the code that reads cameras' images.
     from teo_skeleton_retriever.bags.bag_reader import Bag
-    from teo_skeleton_retriever.bags.topic_choice import choose_topics
-    from teo_skeleton_retriever.camera.image_messages import color_of, stamp_of
+    from teo_skeleton_retriever.bags.bag_images import choose_topics
+    from teo_skeleton_retriever.camera.rgbd_image import color_of, stamp_of
     from teo_skeleton_retriever.errors import RetrieverError
 
     opened = Bag(bag)

@@ -150,7 +150,7 @@ def film_webcam(
         LutError: "no_camera" if there is none of that number or it gives no image; "not_written".
     """
     from teo_skeleton_retriever.errors import RetrieverError
-    from teo_skeleton_retriever.output.overlay_video import overlay_video
+    from teo_skeleton_retriever.output.overlay import overlay_video
 
     # A camera that is not there is said below, in one sentence.
     cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)

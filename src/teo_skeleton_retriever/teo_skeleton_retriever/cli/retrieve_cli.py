@@ -20,17 +20,21 @@ from teo_skeleton_retriever.bags.bag_images import BagImage
 from teo_skeleton_retriever.camera.rgbd_image import RgbdImage, read_rgbd_image
 from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP, GREATEST_SLOP
 from teo_skeleton_retriever.detectors import DETECTORS, make_detector
-from teo_skeleton_retriever.empty_space import nobody_in_space
 from teo_skeleton_retriever.errors import RetrieverError, TopicError
-from teo_skeleton_retriever.image_retriever import COMPAT_MODES, ImageRetriever, Retrieved, make_retriever
+from teo_skeleton_retriever.image_retriever import (
+    COMPAT_MODES,
+    ImageRetriever,
+    Retrieved,
+    make_retriever,
+    nobody_in_space,
+)
 from teo_skeleton_retriever.layouts.skeleton_3d import KeypointStatus
 from teo_skeleton_retriever.node.node_parameters import (
     detector_options_from,
     parameters_from_words,
 )
-from teo_skeleton_retriever.output.overlay import Overlay
-from teo_skeleton_retriever.output.overlay_video import OverlayVideo, overlay_video
-from teo_skeleton_retriever.output.skeleton_json import as_json
+from teo_skeleton_retriever.output.messages import as_json
+from teo_skeleton_retriever.output.overlay import Overlay, OverlayVideo, overlay_video
 from teo_skeleton_retriever.recording import RetrievalReport, retrieve_recording
 
 _out = Console()

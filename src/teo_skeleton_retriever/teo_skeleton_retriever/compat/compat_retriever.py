@@ -1,24 +1,31 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The original skeletonRetriever behind the interface of `Retriever`."""
+"""The original skeletonRetriever behind the interface of `Retriever`, with its own names of parameters."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
-from teo_skeleton_retriever.compat.original_parameters import OriginalParameters, original_parameters_from
 from teo_skeleton_retriever.compat.original_retriever import OriginalRetriever
-from teo_skeleton_retriever.compat.original_skeleton import FROM_BODY_25, SKELETON_STD, OriginalSkeleton
+from teo_skeleton_retriever.compat.original_skeleton import (
+    FROM_BODY_25,
+    SKELETON_STD,
+    ContourDilation,
+    OriginalParameters,
+    OriginalSkeleton,
+)
 from teo_skeleton_retriever.detectors.detector import DetectionFrame
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25, FACE_70, HAND_21
 from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton, body_frame
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
-from teo_skeleton_retriever.tracking.signer_choice import SignerChoice
+from teo_skeleton_retriever.tracking.person_tracker import SignerChoice
 
 _ROWS = np.array([BODY_25.index[name] for name in FROM_BODY_25])
 _SOURCES = np.array([SKELETON_STD.index[tag] for tag in FROM_BODY_25.values()])
@@ -39,9 +46,7 @@ class CompatRetriever:
             original: Of the processing.
         """
         self._original = original or OriginalParameters()
-        self._signer = SignerChoice(
-            "central" if parameters.signer_rule == "central" else "nearest", parameters.signer_patience
-        )
+        self._signer = SignerChoice(parameters.signer_rule, parameters.signer_patience)
         self._camera: CameraModel | None = None
         self._retriever: OriginalRetriever | None = None
 
@@ -70,6 +75,68 @@ class CompatRetriever:
             self._signer.unlock()
         else:
             self._signer.lock(track_id)
+
+
+_GROUPS = {
+    "skeleton": (
+        "keys_recognition_confidence",
+        "keys_recognition_percentage",
+        "keys_acceptable_misses",
+        "min_acceptable_path",
+        "tracking_threshold",
+        "time_to_live",
+    ),
+    "filtering": ("filter_keypoint_order", "filter_limblength_order", "optimize_limblength"),
+    "depth": ("kernel_size", "iterations", "min_distance", "max_distance"),
+}
+# The original's names of the options; those of its camera and ports have no meaning here.
+_OPTIONS = {f"{group}::{name.replace('_', '-')}": name for group, names in _GROUPS.items() for name in names}
+_ENABLE = "depth::enable"
+_DEFAULTS = {**vars(OriginalParameters()), **vars(ContourDilation())}
+
+
+def original_parameters_from(words: Sequence[str]) -> OriginalParameters:
+    """Give the original's parameters.
+
+    Args:
+        words: `group::name=value` each; empty ones do not matter. What is not named has the default of the
+            original's code.
+
+    Raises:
+        RetrieverError: A name is not known, or a value is none.
+    """
+    chosen: dict[str, Any] = {}
+    enabled = True
+    for word in filter(None, words):
+        name, _, text = (part.strip() for part in word.partition("="))
+        if name == _ENABLE:
+            enabled = bool(_value(name, text, bool))
+        elif name in _OPTIONS:
+            chosen[_OPTIONS[name]] = _value(name, text, type(_DEFAULTS[_OPTIONS[name]]))
+        else:
+            raise RetrieverError(
+                "unknown_compat_option",
+                f"expected NAME=VALUE with a name of {', '.join((*_OPTIONS, _ENABLE))}; got {word!r:.80}",
+            )
+    depth = {name: chosen.pop(name) for name in _GROUPS["depth"] if name in chosen}
+    return OriginalParameters(depth_filter=ContourDilation(**depth) if enabled else None, **chosen)
+
+
+def _value(name: str, text: str, kind: type) -> float:
+    try:
+        value: float = _switch(text) if kind is bool else kind(text)
+    except ValueError as error:
+        raise RetrieverError("wrong_type", f"{name}: got {text!r:.40}: {error}") from None
+    least = 1 if name == "depth::kernel-size" else 0
+    if not (math.isfinite(value) and value >= least):
+        raise RetrieverError("out_of_range", f"{name}: expected {least} or more, got {text}")
+    return value
+
+
+def _switch(text: str) -> bool:
+    if text.lower() not in ("true", "false", "on", "off"):
+        raise ValueError("expected true or false")
+    return text.lower() in ("true", "on")
 
 
 def compat_retriever(parameters: RetrieverParameters, options: Sequence[str]) -> CompatRetriever:

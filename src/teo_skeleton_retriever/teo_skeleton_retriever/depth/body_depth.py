@@ -12,8 +12,7 @@ import numpy as np
 
 from teo_skeleton_retriever.arrays import BoolArray, FloatArray, median
 from teo_skeleton_retriever.depth.arm_depth import Arm, ArmSolution, ArmSolver
-from teo_skeleton_retriever.depth.depth_lookup import Surfaces
-from teo_skeleton_retriever.depth.filtered_keypoints import points_of
+from teo_skeleton_retriever.depth.depth_lookup import Surfaces, ViewingRays
 from teo_skeleton_retriever.depth.girdle_depth import girdle_depths
 from teo_skeleton_retriever.depth.skin import (
     BODY_CAPS,
@@ -22,7 +21,6 @@ from teo_skeleton_retriever.depth.skin import (
     FOREARM_RADIUS,
     along_ray,
 )
-from teo_skeleton_retriever.depth.viewing_rays import ViewingRays
 from teo_skeleton_retriever.detectors.mediapipe.calibration import body_sigma, elbow_error
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_layout import ARMS, GIRDLE, ROW
@@ -32,7 +30,6 @@ from teo_skeleton_retriever.tracking.keypoint_filter import FilterOutput
 
 _N = len(BODY_25)
 _LEGS = [[ROW[f"{side}{joint}"] for joint in ("Hip", "Knee", "Ankle")] for side in ("R", "L")]
-_TRUNK = np.array([ROW[name] for name in ("Nose", "MidHip", "RHip", "LHip")])
 _HEAD = np.array([ROW[name] for name in ("Nose", "REye", "LEye")])
 # Joints at the ends of limbs, and the limbs' other ends. A wrist lies in the middle: the hand goes on.
 _LIMBS = np.array(
@@ -44,7 +41,6 @@ _LIMBS = np.array(
 )
 
 _SKIN_SIGMA = 0.008  # [m] how far the skin is from a tube around the limb
-_HIDDEN = 0.06  # [m] a trunk does not come nearer by this from image to image: something hides it
 _ACROSS = np.full(_N, 0.012)  # [m] how far the detector's keypoints are from the joints
 _ACROSS[[ROW[f"{side}Elbow"] for side in "LR"]] = 0.02
 _ACROSS[[ROW[f"{side}Wrist"] for side in "LR"]] = 0.025
@@ -141,7 +137,6 @@ class BodyDepth:
             row = ARMS[side][2]
             rays[row], across[row] = view.ray, _HAND_ACROSS
             depth[row], sigma[row] = view.depth, view.sigma
-        _reject_hidden_trunk(depth, before)
         replaced = np.zeros(_N, dtype=bool)
         girdle = girdle_depths(
             surfaces.part(GIRDLE),
@@ -174,7 +169,7 @@ class BodyDepth:
         if not self._parameters.skin_offset:
             return np.zeros(_N), np.zeros(_N)
         radius = BODY_DEPTHS * size.scale
-        points = points_of(before)
+        points = before.points
         limb = np.full((_N, 3), np.nan)
         limb[_LIMBS[:, 0]] = points[_LIMBS[:, 1]] - points[_LIMBS[:, 0]]
         behind = along_ray(radius, limb, points, BODY_CAPS)
@@ -252,14 +247,6 @@ def _part_across(forearm: FloatArray, depth: float, size: BodySize) -> float:
     """
     seen = math.dist(*forearm) * depth / size.length("forearm")[0]
     return seen if math.isfinite(seen) else 1.0
-
-
-def _reject_hidden_trunk(depth: FloatArray, before: FilterOutput) -> None:
-    """Set depths of the trunk to NaN that are too near for its movement: something hides it there."""
-    with np.errstate(invalid="ignore"):
-        nearer = before.depth - depth > np.maximum(_HIDDEN, 4.0 * before.sigma[:, 2])
-    rows = _TRUNK[nearer[_TRUNK]]
-    depth[rows] = np.nan
 
 
 def _head(depth: FloatArray) -> float:

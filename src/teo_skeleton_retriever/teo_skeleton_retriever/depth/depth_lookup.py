@@ -1,18 +1,60 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The depth at keypoints, robust against holes, contours and things in front."""
+"""What one image shows at keypoints: their viewing rays, and the surfaces that depth shows around them."""
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from teo_skeleton_retriever.arrays import BoolArray, DepthArray, FloatArray
-from teo_skeleton_retriever.errors import RetrieverError
+from teo_skeleton_retriever.camera.camera_model import CameraModel
+
+
+class ViewingRays(NamedTuple):
+    """Keypoints in one image; not seen ones are NaN with confidence 0."""
+
+    pixels: FloatArray
+    """[px]. Shape (n, 2)"""
+    rays: FloatArray
+    """x/z, y/z. Shape (n, 2)"""
+    confidence: FloatArray
+    """0 to 1. Shape (n,)"""
+    seen: BoolArray
+    """Shape (n,)"""
+
+    def only(self, believed: BoolArray) -> ViewingRays:
+        """Treat keypoints that are not believed as not seen."""
+        return ViewingRays(
+            np.where(believed[:, None], self.pixels, np.nan),
+            np.where(believed[:, None], self.rays, np.nan),
+            np.where(believed, self.confidence, 0.0),
+            self.seen & believed,
+        )
+
+    def part(self, rows: slice) -> ViewingRays:
+        """Keep some of the keypoints."""
+        return ViewingRays(self.pixels[rows], self.rays[rows], self.confidence[rows], self.seen[rows])
+
+
+def viewing_rays(keypoints: FloatArray, camera: CameraModel, min_confidence: float) -> ViewingRays:
+    """Keep the keypoints that are in the image and that the detector is sure of.
+
+    Args:
+        keypoints: x, y [px], confidence. Shape (n, 3).
+        camera: Of the image.
+        min_confidence: Of the detector; 0 means absent in every layout, whatever is asked.
+    """
+    seen = (keypoints[:, 2] >= min_confidence) & (keypoints[:, 2] > 0.0) & camera.contains(keypoints[:, :2])
+    pixels = np.where(seen[:, None], keypoints[:, :2], np.nan)
+    rays = np.full((len(keypoints), 2), np.nan)
+    rays[seen] = camera.rays(pixels[seen])[:, :2]
+    seen &= np.isfinite(rays).all(axis=1)  # a lens may image nothing there
+    confidence = np.where(seen, np.clip(keypoints[:, 2], 0.0, 1.0), 0.0)
+    return ViewingRays(pixels, rays, confidence, seen)
+
 
 _MAD_TO_SIGMA = 1.4826  # of a normal distribution
 _RINGS = (
@@ -95,48 +137,27 @@ class Surfaces(NamedTuple):
         return DepthSamples(self.depth[rows, best], self.sigma[rows, best], self.support[rows, best])
 
 
-@dataclass(frozen=True, kw_only=True)
+# [px] A disc is no smaller, as single pixels are holes or flying pixels, and no larger. The largest is looked
+# at where the smaller disc is a hole.
+_MIN_RADIUS, _MAX_RADIUS = 1.5, 20.0
+# Of a disc's measured pixels: a smaller surface is specks. Flying pixels at an edge lie between foreground
+# and background.
+_MIN_SUPPORT = 0.1
+_NOISE = 0.002  # [m] least sigma at 1 m, which grows with the square of the depth: the data sheet of the D435
+
+
 class DepthLookup:
-    """Splits the depths in a disc around each keypoint into surfaces.
+    """Splits the depths in a disc around each keypoint into surfaces."""
 
-    Attributes:
-        radius: Of the disc that is looked at [m], at the depth in question: half a wrist.
-        min_radius_px: But no smaller than this: single pixels are holes or flying pixels [px].
-        max_radius_px: And no larger: that is what is looked at where the smaller disc is a hole [px].
-        gap: Depths that are this far apart belong to different surfaces [m]: less than a forearm before a
-            chest, more than the steps of noise and slopes of a body within the disc.
-        min_support: A surface with a smaller share of the disc's measured pixels is specks (flying pixels at
-            an edge lie between foreground and background).
-        noise: Smallest sigma, at 1 m [m]; grows with the square of the depth, as stereo noise does. 2 mm is
-            the data sheet figure of the D435.
-        nearest: Nearer is not measured but noise [m].
-        farthest: Farther is background [m].
+    def __init__(self, *, nearest: float, farthest: float) -> None:
+        """Set what counts as measured.
 
-    Raises:
-        RetrieverError: A value makes no lookup.
-    """
-
-    radius: float = 0.03
-    min_radius_px: float = 1.5
-    max_radius_px: float = 20.0
-    gap: float = 0.06
-    min_support: float = 0.1
-    noise: float = 0.002
-    nearest: float = 0.01
-    farthest: float = 100.0
-
-    def __post_init__(self) -> None:
-        values = (self.radius, self.min_radius_px, self.max_radius_px, self.gap, self.noise)
-        if not all(math.isfinite(value) and value > 0.0 for value in values):
-            raise RetrieverError("bad_lookup", f"expected positive lengths, got {values}")
-        if self.min_radius_px > self.max_radius_px or not 0.0 <= self.min_support < 1.0:
-            raise RetrieverError(
-                "bad_lookup", "expected min_radius_px <= max_radius_px and a min_support from 0 to below 1"
-            )
-        if not 0.0 < self.nearest < self.farthest < math.inf:
-            raise RetrieverError(
-                "bad_range", f"expected 0 < nearest < farthest, got {self.nearest}, {self.farthest}"
-            )
+        Args:
+            nearest: Nearer is not measured but noise [m].
+            farthest: Farther is background [m].
+        """
+        self._nearest = nearest
+        self._farthest = farthest
 
     def surfaces(
         self,
@@ -144,9 +165,9 @@ class DepthLookup:
         pixels: FloatArray,
         *,
         focal: float,
-        distance: FloatArray | None = None,
-        radius: FloatArray | None = None,
-        gap: FloatArray | None = None,
+        distance: FloatArray,
+        radius: float | FloatArray,
+        gap: float | FloatArray,
     ) -> Surfaces:
         """Find the surfaces around keypoints.
 
@@ -154,31 +175,22 @@ class DepthLookup:
             depth: [m], NaN where unknown. Shape (height, width).
             pixels: x, y [px]; NaN or outside the image is nothing seen. Shape (n, 2).
             focal: Length of the camera [px].
-            distance: About where the keypoints are [m], which sets the size of the discs; NaN or None if not
-                known: then it is measured first. Shape (n,).
-            radius: Of each disc [m], instead of the same for all. Shape (n,).
-            gap: At each keypoint [m], instead of the same for all. Shape (n,).
+            distance: About where the keypoints are [m], which sets the size of the discs. Shape (n,).
+            radius: Of each disc [m], one or each. Shape (n,).
+            gap: Depths that are this far apart belong to different surfaces [m], one or each. Shape (n,).
         """
-        pixels = np.asarray(pixels, dtype=np.float64)
         n = len(pixels)
-        gap = np.full(n, self.gap) if gap is None else gap
-        radius = np.full(n, self.radius) if radius is None else radius
-        distance = np.full(n, np.nan) if distance is None else np.asarray(distance, dtype=np.float64)
+        gap, radius = np.broadcast_to(gap, (n,)), np.broadcast_to(radius, (n,))
         found = _nothing(n)
         seen = np.flatnonzero(np.isfinite(pixels).all(axis=1))
         if not len(seen):
             return found
-        pixels, gap, radius, distance = pixels[seen], gap[seen], radius[seen], distance[seen]
-        unknown = ~(distance > 0.0)
-        if unknown.any():
-            coarse = np.full(int(unknown.sum()), self.max_radius_px / 2.0)
-            distance[unknown] = self._split(depth, pixels[unknown], coarse, gap[unknown]).depth[:, 0]
-        radii = radius * focal / np.where(distance > 0.0, distance, np.inf)
-        parts = self._split(depth, pixels, np.clip(radii, self.min_radius_px, self.max_radius_px), gap)
+        pixels, gap = pixels[seen], gap[seen]
+        radii = np.clip(radius[seen] * focal / distance[seen], _MIN_RADIUS, _MAX_RADIUS)
+        parts = self._split(depth, pixels, radii, gap)
         holes = np.isnan(parts.depth[:, 0])
         if holes.any():
-            whole = np.full(int(holes.sum()), self.max_radius_px)
-            wide = self._split(depth, pixels[holes], whole, gap[holes])
+            wide = self._split(depth, pixels[holes], np.full(int(holes.sum()), _MAX_RADIUS), gap[holes])
             for rows, wide_rows in zip(parts, wide, strict=True):
                 rows[holes] = wide_rows
         for all_rows, rows in zip(found, parts, strict=True):
@@ -198,7 +210,7 @@ class DepthLookup:
         sizes = np.bincount((labels + m * np.arange(n)[:, None])[known], minlength=n * m).reshape(n, m)
         total = known.sum(axis=1, keepdims=True)
         # Very torn discs have no solid surface: then the largest piece is the best there is.
-        solid = (sizes >= self.min_support * total) | (sizes == sizes.max(axis=1, keepdims=True, initial=0))
+        solid = (sizes >= _MIN_SUPPORT * total) | (sizes == sizes.max(axis=1, keepdims=True, initial=0))
         solid &= sizes > 0
         rank = np.cumsum(solid, axis=1) * solid
         found = _nothing(n)
@@ -219,7 +231,7 @@ class DepthLookup:
         )
         seen = (columns >= 0) & (columns < width) & (rows >= 0) & (rows < height) & inside[:, None]
         values = depth.take(np.where(seen, rows * width + columns, 0)).astype(np.float64)
-        seen &= (values >= self.nearest) & (values <= self.farthest)  # NaN is neither
+        seen &= (values >= self._nearest) & (values <= self._farthest)  # NaN is neither
         return np.where(seen, values, np.inf)
 
     def _sample(
@@ -236,7 +248,7 @@ class DepthLookup:
         with np.errstate(invalid="ignore"):
             deviations = np.where(near, np.abs(values - depth[:, None]), np.inf)
         low, high = _middle(np.sort(deviations, axis=1), count)
-        return depth, np.hypot(_MAD_TO_SIGMA * (low + high) / 2.0, self.noise * depth * depth)
+        return depth, np.hypot(_MAD_TO_SIGMA * (low + high) / 2.0, _NOISE * depth * depth)
 
 
 def _nothing(n: int) -> Surfaces:

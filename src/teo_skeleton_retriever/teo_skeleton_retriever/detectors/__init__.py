@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Who is in an image, and where their keypoints are: detectors behind one small interface."""
 
-from teo_skeleton_retriever.detectors.detector import Detector
-from teo_skeleton_retriever.detectors.factory import DETECTORS, make_detector
+from teo_skeleton_retriever.detectors.detector import DETECTORS, Detector, make_detector
 
 __all__ = ["DETECTORS", "Detector", "make_detector"]

@@ -1,12 +1,14 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The interface of a detector, the check of the images given to it, and what it saw in one image."""
+"""The interface of a detector, what it sees in an image, and detectors by name, which are plugins."""
 
 from __future__ import annotations
 
+import inspect
 import math
 from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
+from importlib.metadata import entry_points
+from typing import Any, Protocol, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,18 +51,12 @@ class Detector(Protocol):
         """Release what it holds; a second call does nothing."""
 
 
-@runtime_checkable
-class LimitedDetector(Protocol):
-    """A detector that follows so many people at most, and knows of those whom it leaves out."""
-
-    @property
-    def people_left_out(self) -> int:
-        """How many more it sees than it follows, as far as it has looked."""
-
-
 def people_left_out(detector: Detector) -> int:
-    """How many more people a detector sees than it follows; 0 if it has no limit."""
-    return detector.people_left_out if isinstance(detector, LimitedDetector) else 0
+    """How many more people a detector sees than it follows; 0 of one that follows everybody.
+
+    A detector with a limit has a property of this name.
+    """
+    return int(getattr(detector, "people_left_out", 0))
 
 
 def left_out_sentence(count: int) -> str:
@@ -119,3 +115,60 @@ class DetectionFrame:
                 f"expected depth of the camera's {size[1]} x {size[0]} px, got shape {self.depth.shape}; "
                 "align depth to colour and take the camera_info of that resolution",
             )
+
+
+# Groups of entry points: what finds people in images, and what follows them in space.
+DETECTOR_GROUP = "teo_skeleton_retriever.detectors"
+RETRIEVER_GROUP = "teo_skeleton_retriever.retrievers"
+
+
+def plugin(group: str, name: str) -> Any:
+    """Load what an installed package offers under a name.
+
+    Args:
+        group: Of the entry points.
+        name: Of one of them.
+
+    Raises:
+        RetrieverError: "not_installed": no package offers it, or a package that it imports is absent.
+    """
+    for point in entry_points(group=group, name=name):
+        try:
+            return point.load()
+        except ModuleNotFoundError as error:
+            raise RetrieverError(
+                "not_installed", f"{name}: expected the Python package {error.name}, found none; install it"
+            ) from error
+    raise RetrieverError(
+        "not_installed",
+        f"{name}: expected an installed package that offers it in the group {group}, found none; "
+        "`make setup` installs all",
+    )
+
+
+# The names that `make_detector` knows.
+DETECTORS = ("mediapipe", "openpose_json", "openpose_onnx", "replay")
+
+
+def make_detector(name: str, **options: object) -> Detector:
+    """Make a detector.
+
+    Args:
+        name: One of `DETECTORS`.
+        options: Of that detector's constructor.
+
+    Raises:
+        RetrieverError: The name or an option is unknown, or the detector is not installed or cannot be made.
+    """
+    if name not in DETECTORS:
+        raise RetrieverError("unknown_detector", f"expected one of {', '.join(DETECTORS)}, got {name!r}")
+    detector = plugin(DETECTOR_GROUP, name)
+    try:
+        inspect.signature(detector).bind(**options)
+    except TypeError as error:
+        known = ", ".join(inspect.signature(detector).parameters)
+        raise RetrieverError("bad_option", f"{name}: expected options among {known}; {error}") from error
+    try:
+        return cast(Detector, detector(**options))
+    except TypeError as error:  # users give options as JSON: a text where a number should be, and the like
+        raise RetrieverError("bad_option", f"{name}: an option is of the wrong kind: {error}") from error

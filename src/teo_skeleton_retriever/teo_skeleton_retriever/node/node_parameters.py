@@ -12,9 +12,8 @@ from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP, GREATEST_SL
 from teo_skeleton_retriever.detectors import DETECTORS
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.image_retriever import COMPAT_MODES
-from teo_skeleton_retriever.retriever_parameters import RetrieverParameters, parameter_info
+from teo_skeleton_retriever.retriever_parameters import RetrieverParameters, parameter_rows
 
-_DETECTOR = "detector"
 _TRANSPORTS_COLOR = ("auto", "raw", "compressed")
 _TRANSPORTS_DEPTH = ("auto", "raw", "compressedDepth")
 
@@ -94,23 +93,9 @@ _NODE = (
 )
 
 
-def _retriever_rows() -> tuple[ParameterRow, ...]:
-    defaults = RetrieverParameters()
-    return tuple(
-        ParameterRow(
-            name=name,
-            default=getattr(defaults, name),
-            low=info.lowest,
-            high=info.highest,
-            choices=info.choices,
-            description=info.description + (f" [{info.unit}]" if info.unit else ""),
-        )
-        for name, info in parameter_info().items()
-        if name != _DETECTOR  # the node has one of its own, from which this follows
-    )
-
-
-PARAMETERS = (*_NODE, *_retriever_rows())
+# The node has a `detector` of its own, from which the retriever's follows.
+_RETRIEVER = tuple(row for row in parameter_rows() if row.name != "detector")
+PARAMETERS = (*_NODE, *_RETRIEVER)
 
 
 def retriever_parameters_from(values: Mapping[str, Value], detector: str) -> RetrieverParameters:
@@ -123,10 +108,8 @@ def retriever_parameters_from(values: Mapping[str, Value], detector: str) -> Ret
     Raises:
         RetrieverError: A value is wrong, or two do not go together.
     """
-    chosen: dict[str, Value] = {row.name: values[row.name] for row in _retriever_rows()}
-    if _DETECTOR in parameter_info():
-        known = detector in parameter_info()[_DETECTOR].choices
-        chosen[_DETECTOR] = detector if known else "other"
+    chosen: dict[str, Value] = {row.name: values[row.name] for row in _RETRIEVER}
+    chosen["detector"] = "mediapipe" if detector == "mediapipe" else "other"
     return RetrieverParameters(**chosen)  # type: ignore[arg-type]  # checked by the class itself
 
 
@@ -175,7 +158,7 @@ def parameters_from_words(words: Sequence[str], *, detector: str, one_image: boo
     Raises:
         RetrieverError: A name or a value is wrong, or two do not go together.
     """
-    values: dict[str, Value] = {row.name: row.default for row in _retriever_rows()}
+    values: dict[str, Value] = {row.name: row.default for row in _RETRIEVER}
     if one_image:
         values["newcomer_images"] = 1
     for word in words:

@@ -26,16 +26,16 @@ from visualization_msgs.msg import MarkerArray
 from teo_common.diagnostics import DIAGNOSTICS_PERIOD
 from teo_common.node_process import run_node
 from teo_common.parameters import declare_parameters
-from teo_skeleton_retriever.camera.image_messages import (
+from teo_skeleton_retriever.camera.rgbd_image import (
     CAMERA_INFO_TOPIC,
     COLOR_TOPIC,
     DEPTH_TOPIC,
+    RgbdImage,
     camera_of,
     color_of,
     depth_of,
     stamp_of,
 )
-from teo_skeleton_retriever.camera.rgbd_image import RgbdImage
 from teo_skeleton_retriever.camera.synchroniser import Pair, Synchroniser
 from teo_skeleton_retriever.detectors import Detector, make_detector
 from teo_skeleton_retriever.errors import RetrieverError
@@ -46,8 +46,7 @@ from teo_skeleton_retriever.image_retriever import (
     Retrieved,
     make_retriever,
 )
-from teo_skeleton_retriever.node.health import ImageDiagnostics, Problem
-from teo_skeleton_retriever.node.image_subscription import ImageSubscription
+from teo_skeleton_retriever.node.health import ImageDiagnostics, Problem, Result, StreamStats
 from teo_skeleton_retriever.node.latest_frame_pipeline import LatestFramePipeline, tune_interpreter
 from teo_skeleton_retriever.node.node_parameters import (
     PARAMETERS,
@@ -55,10 +54,68 @@ from teo_skeleton_retriever.node.node_parameters import (
     detector_options_from,
     retriever_parameters_from,
 )
-from teo_skeleton_retriever.node.stream_stats import Result, StreamStats
-from teo_skeleton_retriever.output.markers import marker_array
-from teo_skeleton_retriever.output.messages import image_message, skeleton_array
+from teo_skeleton_retriever.output.messages import image_message, marker_array, skeleton_array
 from teo_skeleton_retriever.output.overlay import Overlay
+
+_AUTO, _RAW = "auto", "raw"
+
+
+class ImageSubscription:
+    """Subscribes to one form of an image topic.
+
+    With `auto` it is the raw one, until `follow_publishers` finds that only the compressed one is published.
+    Not both at once: a camera compresses for nobody else, and every image would come twice.
+    """
+
+    def __init__(
+        self,
+        node: Any,
+        *,
+        topic: str,
+        compressed: str,
+        transport: str,
+        callback: Callable[[Any], None],
+        qos: QoSProfile,
+    ) -> None:
+        """Subscribe.
+
+        Args:
+            node: To subscribe with.
+            topic: Of the raw images; remapped, the compressed ones are below its new name (as with
+                image_transport).
+            compressed: Last name of the compressed form's topic.
+            transport: "raw", that name, or "auto".
+            callback: Gets each message.
+            qos: Of the subscription.
+        """
+        base = node.resolve_topic_name(topic)
+        self._node = node
+        self._names = {_RAW: base, compressed: f"{base}/{compressed}"}
+        self._automatic = transport == _AUTO
+        self._callback = callback
+        self._qos = qos
+        self._subscription = self._subscribe(_RAW if self._automatic else transport)
+
+    @property
+    def topic(self) -> str:
+        """Full name of what is subscribed to."""
+        return str(self._subscription.topic_name)
+
+    def follow_publishers(self) -> None:
+        """Change to the other form where that is published and the present one is not."""
+        if not self._automatic or self._node.count_publishers(self.topic):
+            return
+        for transport, name in self._names.items():
+            if self._node.count_publishers(name):
+                self._node.destroy_subscription(self._subscription)
+                self._subscription = self._subscribe(transport)
+                self._node.get_logger().info(f"takes images from {self.topic}")
+                return
+
+    def _subscribe(self, transport: str) -> Any:
+        kind = Image if transport == _RAW else CompressedImage
+        return self._node.create_subscription(kind, self._names[transport], self._callback, self._qos)
+
 
 # Best effort: a lost image is not worth waiting for. Five, as in rmw's profile for sensors: with
 # fewer, a short delay would leave colour and depth of different times.

@@ -5,41 +5,17 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25
 
-
-@dataclass(frozen=True, kw_only=True)
-class LimbLengthSettings:
-    """How a limb length is estimated.
-
-    Attributes:
-        window: Number of lengths that count: 10 s at 30 images a second, then a bad start is gone.
-        min_samples: Fewer make no estimate: a third of a second.
-        shortest: A shorter length is a wrong detection [m]: half a child's forearm.
-        longest: A longer one too [m]: a tall man's thigh with room to spare.
-        tolerance: A limb is too long beyond this many times its estimate. The original's 2 lets an arm that
-            touches the background pass; the lengths of visible limbs were seen within 1.3 on recordings.
-    """
-
-    window: int = 300
-    min_samples: int = 10
-    shortest: float = 0.08
-    longest: float = 0.65
-    tolerance: float = 1.4
-
-    def __post_init__(self) -> None:
-        if not 1 <= self.min_samples <= self.window:
-            raise RetrieverError(
-                "bad_window", f"expected 1 <= min_samples <= window, got {self.min_samples}, {self.window}"
-            )
-        if not 0.0 < self.shortest < self.longest < math.inf or not 1.0 < self.tolerance < math.inf:
-            raise RetrieverError("bad_range", "expected 0 < shortest < longest [m] and a tolerance above 1")
+_WINDOW = 300  # lengths that count: 10 s at 30 images a second, then a bad start is gone
+_SHORTEST, _LONGEST = 0.08, 0.65  # [m] half a child's forearm, a tall man's thigh with room to spare
+# A limb is too long beyond this many times its estimate. The original's 2 lets an arm that touches the
+# background pass; the lengths of visible limbs were seen within 1.3 on recordings.
+_TOLERANCE = 1.4
 
 
 class LimbLength:
@@ -50,9 +26,14 @@ class LimbLength:
     that lies across.
     """
 
-    def __init__(self, settings: LimbLengthSettings | None = None) -> None:
-        self._settings = settings or LimbLengthSettings()
-        self._samples = np.zeros((self._settings.window, 2))  # lengths and weights, the oldest overwritten
+    def __init__(self, *, min_samples: int = 10) -> None:
+        """Know nothing yet.
+
+        Args:
+            min_samples: Fewer lengths make no estimate: a third of a second.
+        """
+        self._min_samples = min_samples
+        self._samples = np.zeros((_WINDOW, 2))  # lengths and weights, the oldest overwritten
         self._count = 0  # of all lengths so far
         self._weight = 0.0
         self._value: float | None = None
@@ -66,14 +47,14 @@ class LimbLength:
         """
         across, along = math.hypot(*(far[:2] - near[:2])), float(far[2] - near[2])
         length = math.hypot(across, along)
-        if not self._settings.shortest <= length <= self._settings.longest:
+        if not _SHORTEST <= length <= _LONGEST:
             return
         # A floor, so that an arm that only ever points at the camera is estimated too.
         self._samples[self._count % len(self._samples)] = length, (across / length) ** 4 + 0.001
         self._count += 1
-        recent = self._recent()
+        recent = self._samples[: self._count]
         self._weight = float(recent[:, 1].sum())
-        if len(recent) >= self._settings.min_samples:
+        if len(recent) >= self._min_samples:
             self._value = _weighted_median(recent)
 
     @property
@@ -86,13 +67,9 @@ class LimbLength:
         """Sum of the weights of the lengths: their number if all were seen across the view."""
         return self._weight
 
-    def _recent(self) -> FloatArray:
-        """The lengths that count, in no particular order, and their weights. Shape (n, 2)."""
-        return self._samples[: self._count]
-
     def too_long(self, length: float) -> bool:
         """Whether a length [m] exceeds the estimate by more than the tolerance; False without one."""
-        return self._value is not None and length > self._settings.tolerance * self._value
+        return self._value is not None and length > _TOLERANCE * self._value
 
 
 def _weighted_median(samples: FloatArray) -> float:
@@ -126,8 +103,6 @@ _HAND = (1.04, 0.7)  # size of a hand of someone of average shoulders, and the p
 # Power of the width that MediaPipe sees that the shoulders' width grows with: to the network everybody is
 # rather average. Of the 27 people, whose shoulders were 0.28 to 0.44 m wide, it saw 0.31 to 0.405 m.
 _REGRESSION = 1.4
-# Of the shoulders: the first width tells more than nothing, which `_ASSUMED_WIDTH` weighs.
-_FIRST = LimbLengthSettings(min_samples=1)
 _ASSUMED_WIDTH = 1.5  # widths seen across the view that outweigh what is assumed of a person
 _SCALE_RANGE = (0.55, 1.35)  # a child of six; a man of 2.1 m with broad shoulders
 
@@ -151,7 +126,9 @@ class BodySize:
             averaging: Whether the detector, as MediaPipe, puts everybody's shoulders rather where an average
                 person has them.
         """
-        self._lengths = {limb: LimbLength(_FIRST if limb == "shoulders" else None) for limb in _LIMBS}
+        self._lengths = {limb: LimbLength() for limb in _LIMBS}
+        # The first width tells more than nothing, which `_ASSUMED_WIDTH` weighs.
+        self._lengths["shoulders"] = LimbLength(min_samples=1)
         self._power = _REGRESSION if averaging else 1.0
         self._off = _MEDIAPIPE_OFF if averaging else dict.fromkeys(_GROWTH, _OFF)
         self._seen_scale = 1.0

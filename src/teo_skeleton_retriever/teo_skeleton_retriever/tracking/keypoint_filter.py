@@ -43,6 +43,12 @@ class FilterOutput(NamedTuple):
     fresh: BoolArray
     """whether direction and depth are measured in this image. Shape (n,)"""
 
+    @property
+    def points(self) -> FloatArray:
+        """Estimated positions [m]; NaN where lost. Shape (n, 3)."""
+        points: FloatArray = np.column_stack([self.rays, np.ones(len(self.depth))]) * self.depth[:, None]
+        return points
+
     def part(self, rows: slice) -> FilterOutput:
         """Keep some of the keypoints."""
         return FilterOutput(

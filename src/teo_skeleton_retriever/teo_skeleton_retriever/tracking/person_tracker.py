@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Tracks of people: ids that stay with them from image to image, through crossings and gaps."""
+"""Who is who from image to image, through crossings and gaps, and who of them is the signer."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,51 +14,18 @@ from scipy.optimize import linear_sum_assignment
 from teo_skeleton_retriever.arrays import FloatArray, frozen
 from teo_skeleton_retriever.errors import RetrieverError
 
-
-@dataclass(frozen=True, kw_only=True)
-class TrackerSettings:
-    """How people are followed.
-
-    Attributes:
-        gate: How far from where a person is expected they may be seen [m]: half the width of two people
-            side by side, and more than a torso's depth errs.
-        gate_growth: By how much the gate grows while a person is not seen [m/s]: a brisk walk's surprise.
-        max_gate: And no further than this [m].
-        memory: How long a person who is not seen keeps their id [s]: someone crossing in front takes one.
-        velocity_time: Over how long the velocity is averaged [s]; shorter follows turns, longer noise.
-        velocity_memory: After how long without being seen a person is no longer thought to walk on [s].
-        newcomer_images: Images in which someone must be seen to get an id; fewer let flickers of the
-            detector become people.
-        newcomer_time: Within this time [s].
-        apart: Two people are no nearer to each other than this [m]: half a chest's breadth. A detection that
-            seems to be nearer is somebody seen twice, or somebody of whom only who hides them is measured.
-    """
-
-    gate: float = 0.4
-    gate_growth: float = 0.8
-    max_gate: float = 1.2
-    memory: float = 3.0
-    velocity_time: float = 0.3
-    velocity_memory: float = 0.7
-    newcomer_images: int = 3
-    newcomer_time: float = 1.0
-    apart: float = 0.2
-
-    def __post_init__(self) -> None:
-        positive = (
-            self.gate,
-            self.memory,
-            self.velocity_time,
-            self.velocity_memory,
-            self.newcomer_time,
-            self.apart,
-        )
-        if not all(math.isfinite(value) and value > 0.0 for value in positive):
-            raise RetrieverError("bad_settings", f"expected finite times and lengths above 0, got {positive}")
-        if not (0.0 <= self.gate_growth < math.inf and self.gate <= self.max_gate < math.inf):
-            raise RetrieverError("bad_settings", "expected gate_growth >= 0 and gate <= max_gate")
-        if self.newcomer_images < 1:
-            raise RetrieverError("bad_settings", f"expected newcomer_images >= 1, got {self.newcomer_images}")
+# [m] How far from where a person is expected they may be seen: half the width of two people side by side, and
+# more than a torso's depth errs.
+_GATE = 0.4
+_GATE_GROWTH = 0.8  # [m/s] while a person is not seen: a brisk walk's surprise
+_MAX_GATE = 1.2  # [m]
+_MEMORY = 3.0  # [s] for which a person who is not seen keeps their id: someone crossing in front takes one
+_VELOCITY_TIME = 0.3  # [s] over which the velocity is averaged; shorter follows turns, longer noise
+_VELOCITY_MEMORY = 0.7  # [s] after which a person who is not seen is no longer thought to walk on
+_NEWCOMER_TIME = 1.0  # [s] within which a newcomer must be seen in enough images
+# [m] Two people are no nearer to each other than half a chest's breadth. A detection that seems to be is
+# somebody seen twice, or somebody of whom only who hides them is measured.
+_APART = 0.2
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,9 +48,9 @@ class TrackedPerson:
     images: int
     first_seen: float
 
-    def expected(self, time: float, velocity_memory: float) -> FloatArray:
+    def expected(self, time: float) -> FloatArray:
         """Where the person should be at a time [m]. Shape (3,)."""
-        walked: FloatArray = self.position + self.velocity * min(time - self.last_seen, velocity_memory)
+        walked: FloatArray = self.position + self.velocity * min(time - self.last_seen, _VELOCITY_MEMORY)
         return walked
 
 
@@ -94,8 +61,14 @@ class PersonTracker:
     velocity while they are hidden, and is looked for in a growing ball.
     """
 
-    def __init__(self, settings: TrackerSettings | None = None) -> None:
-        self._settings = settings or TrackerSettings()
+    def __init__(self, newcomer_images: int = 3) -> None:
+        """Know nobody yet.
+
+        Args:
+            newcomer_images: Images in which someone must be seen to get an id; fewer let flickers of the
+                detector become people.
+        """
+        self._newcomer_images = newcomer_images
         self._people: dict[int, TrackedPerson] = {}
         self._newcomers: list[TrackedPerson] = []
         self._next_id = 0
@@ -149,11 +122,9 @@ class PersonTracker:
         self._people = {
             person_id: person
             for person_id, person in self._people.items()
-            if time - person.last_seen <= self._settings.memory
+            if time - person.last_seen <= _MEMORY
         }
-        self._newcomers = [
-            person for person in self._newcomers if time - person.first_seen <= self._settings.newcomer_time
-        ]
+        self._newcomers = [person for person in self._newcomers if time - person.first_seen <= _NEWCOMER_TIME]
 
     def _match(
         self, time: float, seen: dict[int, FloatArray], people: list[TrackedPerson]
@@ -162,14 +133,14 @@ class PersonTracker:
         if not seen or not people:
             return []
         rows = list(seen)
-        expected = np.array([person.expected(time, self._settings.velocity_memory) for person in people])
+        expected = np.array([person.expected(time) for person in people])
         distances = np.array(
             [np.linalg.norm(places[:, None] - expected[None], axis=2).min(axis=0) for places in seen.values()]
         )
         hidden = np.array([time - person.last_seen for person in people])
-        gates = np.minimum(self._settings.gate + self._settings.gate_growth * hidden, self._settings.max_gate)
+        gates = np.minimum(_GATE + _GATE_GROWTH * hidden, _MAX_GATE)
         # Beyond its gate a pair costs more than all pairs within theirs together, so it is the last resort.
-        beyond = len(rows) * len(people) * self._settings.max_gate**2 + 1.0
+        beyond = len(rows) * len(people) * _MAX_GATE**2 + 1.0
         cost = np.where(distances <= gates, distances**2, beyond)
         pairs = zip(*linear_sum_assignment(cost), strict=True)
         return [(rows[i], people[k]) for i, k in pairs if distances[i, k] <= gates[k]]
@@ -177,17 +148,17 @@ class PersonTracker:
     def _taken(self, time: float, place: FloatArray) -> bool:
         """Whether a person who is seen at this time is at this position."""
         return any(
-            person.last_seen == time and float(np.linalg.norm(place - person.position)) < self._settings.apart
+            person.last_seen == time and float(np.linalg.norm(place - person.position)) < _APART
             for person in self._people.values()
         )
 
     def _moved(self, person: TrackedPerson, time: float, places: FloatArray) -> TrackedPerson:
-        expected = person.expected(time, self._settings.velocity_memory)
+        expected = person.expected(time)
         position = places[int(np.argmin(np.linalg.norm(places - expected, axis=1)))]
         elapsed = time - person.last_seen
         velocity = person.velocity
         if elapsed > 0.0:
-            share = 1.0 - math.exp(-elapsed / self._settings.velocity_time)
+            share = 1.0 - math.exp(-elapsed / _VELOCITY_TIME)
             velocity = velocity + share * ((position - person.position) / elapsed - velocity)
         return replace(
             person,
@@ -198,7 +169,7 @@ class PersonTracker:
         )
 
     def _admit(self, newcomer: TrackedPerson) -> int | None:
-        if newcomer.images < self._settings.newcomer_images:
+        if newcomer.images < self._newcomer_images:
             self._newcomers.append(newcomer)
             return None
         person_id = self._next_id
@@ -209,3 +180,58 @@ class PersonTracker:
 
 def _newcomer(time: float, position: FloatArray) -> TrackedPerson:
     return TrackedPerson(-1, frozen(position), frozen(np.zeros(3)), time, 1, time)
+
+
+class SignerChoice:
+    """Who signs. A signer stays the signer while seen, however near others come; a locked one always does."""
+
+    def __init__(self, rule: str, patience: float) -> None:
+        """Choose by a rule.
+
+        Args:
+            rule: "nearest" to the camera, or "central": closest to its optical axis, by angle.
+            patience: How long a signer who is not seen is waited for [s].
+        """
+        self._rule = rule
+        self._patience = patience
+        self._signer: int | None = None
+        self._last_seen = -math.inf
+        self._locked = False
+
+    @property
+    def signer(self) -> int | None:
+        """Id of the signer, seen or waited for; None if there is none."""
+        return self._signer
+
+    def lock(self, person_id: int) -> None:
+        """Follow this person and nobody else, whether or not they are seen."""
+        self._signer, self._locked = person_id, True
+
+    def unlock(self) -> None:
+        """Choose by the rule again once the present signer leaves."""
+        self._locked = False
+
+    def step(self, time: float, seen: Mapping[int, FloatArray]) -> int | None:
+        """Take one image.
+
+        Args:
+            time: Of the image [s]; one before the last starts the waiting anew.
+            seen: Position of each person who is seen, by id [m]. Shape (3,) each.
+
+        Returns:
+            The signer's id if the signer is seen, else None.
+        """
+        if self._signer in seen:
+            self._last_seen = time
+            return self._signer
+        self._last_seen = min(self._last_seen, time)
+        if self._locked or (self._signer is not None and time - self._last_seen <= self._patience):
+            return None
+        self._signer = min(seen, key=lambda person_id: self._rank(seen[person_id]), default=None)
+        self._last_seen = time
+        return self._signer
+
+    def _rank(self, position: FloatArray) -> float:
+        if self._rule == "nearest":
+            return float(np.linalg.norm(position))
+        return math.atan2(math.hypot(float(position[0]), float(position[1])), float(position[2]))

@@ -11,10 +11,9 @@ import pytest
 from mcap.reader import make_reader
 from rosbags.rosbag2 import StoragePlugin
 
-from teo_skeleton_retriever.bags.bag_images import BagImages
+from teo_skeleton_retriever.bags.bag_images import BagImages, choose_topics
 from teo_skeleton_retriever.bags.bag_reader import Bag
-from teo_skeleton_retriever.bags.topic_choice import choose_topics
-from teo_skeleton_retriever.camera.image_messages import color_of, stamp_of
+from teo_skeleton_retriever.camera.rgbd_image import color_of, stamp_of
 from teo_skeleton_retriever.errors import RetrieverError
 
 IMAGES = 10
@@ -178,12 +177,6 @@ def test_topics_that_are_missing_or_not_clear_are_told(tmp_path):
     bag = Bag(bag_take.write_ros2(tmp_path / "none", [one for one in stored if one[0] != bag_take.DEPTH]))
     with pytest.raises(RetrieverError, match="no_depth"):
         choose_topics(bag)
-
-
-def test_images_before_the_first_camera_info_are_used(tmp_path):
-    stored = list(bag_take.messages(5))
-    late = [one for one in stored if one[0] != bag_take.INFO] + [stored[-3]]
-    assert len(images_of(bag_take.write_ros2(tmp_path / "take", late))) == 5
 
 
 def test_images_that_cannot_be_used_are_counted_with_a_reason(tmp_path):

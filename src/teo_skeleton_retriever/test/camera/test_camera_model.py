@@ -59,15 +59,6 @@ def test_the_field_of_view_spans_the_image() -> None:
     assert np.degrees(np.arctan(edges[1]) - np.arctan(edges[0])) == pytest.approx(54.7282)
 
 
-def test_camera_info_is_read_row_by_row() -> None:
-    k = np.array([600, 0, 320, 0, 601, 240, 0, 0, 1.0])
-    model = CameraModel.from_camera_info(
-        width=640, height=480, k=k, d=PLUMB_BOB, distortion_model="plumb_bob"
-    )
-    assert (model.fx, model.fy, model.cx, model.cy) == (600, 601, 320, 240)
-    assert model.distortion[:5].tolist() == PLUMB_BOB.tolist()
-
-
 def test_points_that_are_not_before_the_camera_have_no_pixel() -> None:
     pixels = camera().project(np.array([[0, 0, 1.0], [0, 0, 0], [0, 0, -1], [0, 0, math.nan]]))
     assert np.isfinite(pixels).all(axis=1).tolist() == [True, False, False, False]
@@ -83,12 +74,6 @@ def test_where_a_lens_images_nothing_there_is_no_ray() -> None:
     rays = barrel.rays(np.array([[322.5, 237.1], [5000.0, 237.1]]))
     assert np.isfinite(rays[0]).all()
     assert np.isnan(rays[1, :2]).all()
-
-
-def test_no_points_and_no_pixels_are_fine() -> None:
-    model = CAMERAS["rational"]
-    assert model.project(np.zeros((0, 3))).shape == (0, 2)
-    assert model.unproject(np.zeros((0, 2)), np.zeros(0)).shape == (0, 3)
 
 
 def test_an_image_reaches_half_a_pixel_beyond_its_pixel_centres() -> None:
@@ -113,9 +98,3 @@ def test_numbers_that_make_no_camera_are_refused(changes: dict[str, Any], code: 
     with pytest.raises(RetrieverError) as caught:
         camera(**changes)
     assert caught.value.code == code
-
-
-@pytest.mark.parametrize("angle", [0.0, math.pi, math.nan, -1.0])
-def test_a_field_of_view_that_is_no_angle_is_refused(angle: float) -> None:
-    with pytest.raises(RetrieverError):
-        CameraModel.from_field_of_view(width=320, height=240, horizontal=angle)

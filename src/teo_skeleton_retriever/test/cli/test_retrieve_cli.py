@@ -109,19 +109,6 @@ def test_one_image_is_enough(seen, tmp_path):
     assert (code, "bad_camera_info" in stderr) == (1, True)
 
 
-def test_the_originals_processing_gives_the_skin(bag, seen):
-    _, stdout, _ = run(bag, "--json", "--compat", "skeleton_retriever", *seen)
-    wrist = json.loads(stdout.splitlines()[-1])["skeletons"][0]["body"]["RWrist"]
-    assert wrist["position"][2] == pytest.approx(take.DISTANCE, abs=1e-6)
-
-
-def test_a_bag_that_was_cut_off_gives_what_is_there_and_fails(bag, seen, tmp_path):
-    out = tmp_path / "out.mcap"
-    code, _, stderr = run(bag_take.cut(bag / "take.mcap", 0.7), "--out", out, *seen)
-    assert (code, "cut off" in stderr) == (1, True)
-    assert 3 <= len(list(read_ros2_messages(out))) < IMAGES
-
-
 def test_parameters_of_the_retriever_can_be_set(bag, seen):
     _, stdout, _ = run(bag, "--json", "-p", "newcomer_images=5", *seen)
     people = [len(json.loads(line)["skeletons"]) for line in stdout.splitlines()]
@@ -176,11 +163,6 @@ def test_a_film_without_an_image_is_not_said_to_be_written(seen, tmp_path):
     assert (code, film.exists()) == (1, False)
     assert f"wrote {out}" in stdout
     assert f"wrote {film}" not in stdout
-
-
-def test_nothing_half_written_is_left_behind(bag, seen, tmp_path):
-    run(bag, "--out", tmp_path / "x.mcap", "--video", tmp_path / "none" / "x.mp4", *seen)
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["keypoints", "take"]
 
 
 def changed(tmp_path, name, change, images=IMAGES):

@@ -32,20 +32,6 @@ def test_a_keypoint_is_one_pixel_of_the_skin_seen_by_a_centred_camera():
     np.testing.assert_allclose(person.body_frame.rotation[:, 0], [0, 0, -1], atol=1e-6)  # faces the camera
 
 
-def test_a_keypoint_that_the_original_does_not_know_is_lost():
-    (person,) = CompatRetriever(RetrieverParameters()).process(frame(0.0, take.person()))
-    for name in ("REye", "LEar", "RHeel", "RAnkle"):
-        assert person.body.status[BODY_25.index[name]] == KeypointStatus.LOST
-
-
-def test_a_person_is_remembered_for_a_second_and_the_signer_kept():
-    retriever = CompatRetriever(RetrieverParameters())
-    (first,) = retriever.process(frame(0.0, take.person()))
-    (unseen,) = retriever.process(frame(0.9))
-    assert unseen.track_id == first.track_id
-    assert retriever.process(frame(2.0)) == ()
-
-
 def test_the_signer_can_be_locked():
     retriever = CompatRetriever(RetrieverParameters())
     people = (take.person(-28), take.person(28))

@@ -6,9 +6,8 @@ import numpy as np
 from capsule_person import ROW, pose
 
 from teo_skeleton_retriever.depth.body_depth import BodyDepth
-from teo_skeleton_retriever.depth.depth_lookup import Surfaces
+from teo_skeleton_retriever.depth.depth_lookup import Surfaces, ViewingRays
 from teo_skeleton_retriever.depth.skin import BODY_DEPTHS
-from teo_skeleton_retriever.depth.viewing_rays import ViewingRays
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
 from teo_skeleton_retriever.tracking.body_size import BodySize
 from teo_skeleton_retriever.tracking.keypoint_filter import FilterOutput

@@ -11,7 +11,7 @@ from capsule_person import imagined_shape, pose
 from scipy.spatial.transform import Rotation
 
 from teo_skeleton_retriever.depth.depth_lookup import Surfaces
-from teo_skeleton_retriever.depth.hand_depth import HandFit, HandView, fit_hands
+from teo_skeleton_retriever.depth.hand_shape import HandFit, HandView, fit_hands
 from teo_skeleton_retriever.depth.skin import HAND_DEPTHS
 
 HAND = pose((-0.4, -0.2, -0.1), (0.25, 0.05, -0.2), curl=0.3).right_hand
@@ -48,10 +48,6 @@ def error(found: HandFit, hand: np.ndarray) -> float:
 @pytest.mark.parametrize("hand", [HAND, BENT])
 def test_a_hand_that_is_seen_whole_is_where_it_is(hand: np.ndarray) -> None:
     assert error(fit(view(hand)), hand) < 0.004
-
-
-def test_a_hand_across_the_view_is_sure_of_its_depth() -> None:
-    assert fit(view(HAND)).certain
 
 
 @pytest.mark.parametrize("hand", [HAND, BENT])
@@ -101,24 +97,7 @@ def test_without_depth_the_hand_is_where_its_arm_ends() -> None:
     assert not found.certain
 
 
-def test_without_depth_and_without_an_arm_nothing_is_known() -> None:
-    seen = view(HAND)
-    seen.surfaces.depth[:] = math.nan
-    assert fit_hands([seen], 1.0) == [None]
-
-
 def test_a_hand_of_which_few_keypoints_are_seen_is_not_fitted() -> None:
     seen = view(HAND)
     seen.rays[:15] = math.nan
     assert fit_hands([seen], 1.0) == [None]
-
-
-def test_hands_fitted_together_are_as_each_by_itself() -> None:
-    seen = [view(HAND, noise=0.01), view(BENT, noise=0.01)]
-    for together, hand in zip(fit_hands(seen, 1.0), seen, strict=True):
-        assert together is not None
-        np.testing.assert_allclose(together.points, fit(hand).points, atol=1e-9)
-
-
-def test_no_hands_are_no_fits() -> None:
-    assert fit_hands([], 1.0) == []

@@ -5,20 +5,15 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from capsule_person import imagined_shape, pose
+from capsule_person import pose
 from scipy.spatial.transform import Rotation
 
-from teo_skeleton_retriever.depth.hand_shape import CHILD, PARENT, imagined_bones, laid, turned
+from teo_skeleton_retriever.depth.hand_shape import CHILD, PARENT, laid, turned
 
 HAND = pose((-0.25, 0.05, -0.35), (0.25, 0.05, -0.2), curl=0.9).right_hand
 BONES = HAND[CHILD] - HAND[PARENT]
 LENGTHS = np.linalg.norm(BONES, axis=1)
 BENDS = HAND / HAND[:, 2:]
-
-
-def test_imagined_bones_have_the_lengths_of_the_persons() -> None:
-    bones = imagined_bones(1.3 * imagined_shape(HAND), LENGTHS)
-    np.testing.assert_allclose(np.linalg.norm(bones, axis=1), LENGTHS)
 
 
 def test_a_hand_is_turned_back_as_it_was_turned() -> None:
@@ -45,9 +40,3 @@ def test_depths_of_something_else_do_not_pull_a_hand() -> None:
     measured[[8, 12, 16, 20]] += 0.15  # what is behind four fingertips
     depths = laid(BONES[None], BENDS[None], measured[None], np.ones((1, 21)))[0]
     np.testing.assert_allclose(depths, HAND[:, 2], atol=0.006)
-
-
-def test_without_an_imagined_shape_a_hand_is_laid_flat() -> None:
-    depths = laid(np.zeros((1, 20, 3)), BENDS[None], HAND[None, :, 2], np.ones((1, 21)))[0]
-    assert np.ptp(depths) < 1e-9
-    assert HAND[:, 2].min() < depths[0] < HAND[:, 2].max()

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from teo_skeleton_retriever.compat.limb_ipopt import CONVERGED_OPTIONS, IpoptLimbSolver
+from teo_skeleton_retriever.compat.original_retriever import CONVERGED_OPTIONS, IpoptLimbSolver
 from teo_skeleton_retriever.depth.limb_solver import FastLimbSolver, LimbChain
 from teo_skeleton_retriever.errors import RetrieverError
 
@@ -34,19 +34,6 @@ def chains(joints: int, count: int) -> list[LimbChain]:
     return [random_chain(random, joints) for _ in range(count)]
 
 
-def test_the_problem_is_the_originals() -> None:
-    points = np.array([[0.0, 0.0, 2.1], [0.2, 0.1, 2.0], [0.3, 0.4, 0.005]])
-    chain = LimbChain.original(points, np.array([0.25, 0.3]), anchor_depth=2.2)
-    np.testing.assert_allclose(chain.start, [2.2, 2.0, 0.005])
-    np.testing.assert_allclose(chain.lower, [2.2, 2.0, 0.01])
-    np.testing.assert_allclose(chain.upper, [2.21, 2.3, 0.02])
-    depths = np.array([2.2, 2.1, 0.015])
-    expected = [
-        np.linalg.norm(step) ** 2 for step in np.diff(points / points[:, 2:] * depths[:, None], axis=0)
-    ]
-    np.testing.assert_allclose(chain.residuals(depths), expected - np.array([0.25, 0.3]) ** 2)
-
-
 @pytest.mark.parametrize("joints", [3, 4])
 @pytest.mark.parametrize("solver", [FAST, CONVERGED, ORIGINAL], ids=["fast", "converged", "original"])
 def test_solutions_keep_their_rays_and_bounds(solver: FastLimbSolver | IpoptLimbSolver, joints: int) -> None:
@@ -60,53 +47,20 @@ def test_solutions_keep_their_rays_and_bounds(solver: FastLimbSolver | IpoptLimb
         )
 
 
-@pytest.mark.parametrize("solver", [FAST, CONVERGED], ids=["fast", "converged"])
-def test_solutions_miss_the_lengths_by_less_than_the_start(solver: FastLimbSolver | IpoptLimbSolver) -> None:
-    for chain in chains(3, 30):
-        assert chain.cost(solver.solve(chain).depths) <= chain.cost(chain.start) + 1e-9
-
-
 @pytest.mark.parametrize("joints", [3, 4])
-def test_the_fast_solve_ends_where_ipopt_ends_when_the_end_is_one(joints: int) -> None:
+def test_the_fast_solve_ends_where_ipopt_ends_or_as_near_to_the_lengths(joints: int) -> None:
     """Ipopt's own variants disagree where several depths are as good: those chains say nothing."""
     exact = IpoptLimbSolver({**CONVERGED_OPTIONS, "hessian_approximation": "exact"})
-    unique = same = 0
+    same, worse = [], []
     for chain in chains(joints, 80):
-        truth = CONVERGED.solve(chain).depths
-        if np.abs(truth - exact.solve(chain).depths).max() > 1e-4:
-            continue
-        unique += 1
-        same += bool(np.abs(FAST.solve(chain).depths - truth).max() < 1e-3)
-    assert unique > 60
-    assert same >= 0.95 * unique
-
-
-@pytest.mark.parametrize("joints", [3, 4])
-def test_the_fast_solve_is_as_good_as_ipopt_almost_everywhere(joints: int) -> None:
-    worse = [
-        math.sqrt(chain.cost(FAST.solve(chain).depths)) - math.sqrt(chain.cost(CONVERGED.solve(chain).depths))
-        for chain in chains(joints, 60)
-    ]
+        truth, found = CONVERGED.solve(chain).depths, FAST.solve(chain).depths
+        worse.append(math.sqrt(chain.cost(found)) - math.sqrt(chain.cost(truth)))
+        if np.abs(truth - exact.solve(chain).depths).max() <= 1e-4:
+            same.append(bool(np.abs(found - truth).max() < 1e-3))
+    assert len(same) > 60
+    assert np.mean(same) >= 0.95
     # 0.5e-3 m^2 is a millimetre of a limb of 0.25 m.
     assert np.mean(np.array(worse) < 0.5e-3) >= 0.95
-
-
-def test_an_elbow_behind_its_skin_is_put_back() -> None:
-    truth = np.array([[0.2, 0.0, 2.0], [0.25, 0.22, 2.06], [0.1, 0.30, 1.90]])
-    lengths = np.linalg.norm(np.diff(truth, axis=0), axis=1)
-    seen = truth.copy()
-    seen[1] *= (truth[1, 2] - 0.05) / truth[1, 2]
-    chain = LimbChain.original(seen, lengths, anchor_depth=2.0)
-    moved = chain.points(FAST.solve(chain).depths)
-    # Forearm and upper arm leave the ends a centimetre of freedom.
-    assert np.linalg.norm(moved[1] - truth[1]) < 0.015
-    np.testing.assert_allclose(np.linalg.norm(np.diff(moved, axis=0), axis=1), lengths, atol=1e-3)
-
-
-def test_a_limb_too_long_to_reach_ends_at_its_bounds() -> None:
-    points = np.array([[0.0, 0.0, 2.0], [0.1, 0.0, 2.0], [0.2, 0.0, 2.0]])
-    chain = LimbChain.original(points, np.array([0.6, 0.6]), anchor_depth=2.0)
-    assert FAST.solve(chain).depths[1] == pytest.approx(2.3, abs=1e-3)
 
 
 GOOD = LimbChain.original(np.array([[0.0, 0.0, 2.0], [0.2, 0.0, 2.0]]), np.array([0.2]), anchor_depth=2.0)

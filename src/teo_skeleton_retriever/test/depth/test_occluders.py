@@ -64,11 +64,3 @@ def test_the_skin_of_an_arm_is_told_from_the_face_behind_it() -> None:
     depths = np.array([[0.97, 1.45, math.nan], [0.97, 1.45, math.nan]])
     shown = arms.shown(rays, depths)
     np.testing.assert_array_equal(shown, [[True, False, False], [False, False, False]])
-
-
-def test_without_an_arm_nothing_is_hidden() -> None:
-    arms = occluders(NOWHERE, {})
-    rays, depth = looked_at((0.0, 0.0, 1.5))
-    assert np.isnan(arms.before(rays, depth)).all()
-    assert not arms.shown(rays, depth[:, None]).any()
-    assert arms.of({ELBOW: [ELBOW]}).shape == (N, 0)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_skeleton_retriever.depth.shoulder_outline import by_outline
+from teo_skeleton_retriever.depth.girdle_depth import by_outline
 from teo_skeleton_retriever.layouts.layout import BODY_25
 
 FOCAL, JOINT = 600.0, 1.5  # [px], [m]

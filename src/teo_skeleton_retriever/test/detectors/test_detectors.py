@@ -12,9 +12,8 @@ import numpy as np
 import pytest
 from openpose_writer import frame_path, write_frame
 
-from teo_skeleton_retriever import plugins
 from teo_skeleton_retriever.detectors import DETECTORS, Detector, make_detector
-from teo_skeleton_retriever.detectors.openpose.openpose_files import OpenPoseFrame
+from teo_skeleton_retriever.detectors import detector as detectors
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
@@ -23,7 +22,7 @@ IMAGE = np.zeros((48, 64, 3), np.uint8)
 
 @pytest.fixture(params=[name for name in DETECTORS if name != "openpose_onnx"])
 def detector(request: pytest.FixtureRequest, tmp_path: Path) -> Detector:
-    write_frame(frame_path(tmp_path, "0"), OpenPoseFrame((Person2D(),)))
+    write_frame(frame_path(tmp_path, "0"), (Person2D(),))
     options: dict[str, dict[str, Any]] = {
         "openpose_json": {"folder": tmp_path},
         "replay": {"frames": [(0.0, [Person2D()])]},
@@ -103,14 +102,14 @@ def test_every_detector_works_on_after_a_bad_image_and_ends_when_closed(detector
     assert code_of(detector.detect, IMAGE, 0.1) == "closed"
 
 
-ABSENT = EntryPoint("openpose_onnx", "no_such_package.detector:Detector", plugins.DETECTOR_GROUP)
+ABSENT = EntryPoint("openpose_onnx", "no_such_package.detector:Detector", detectors.DETECTOR_GROUP)
 
 
 @pytest.mark.parametrize(("offered", "missing"), [((), "make setup"), ((ABSENT,), "no_such_package")])
 def test_a_detector_that_is_not_installed_is_refused_with_what_is_missing(
     offered: tuple[EntryPoint, ...], missing: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(plugins, "entry_points", lambda **_: offered)
+    monkeypatch.setattr(detectors, "entry_points", lambda **_: offered)
     with pytest.raises(RetrieverError, match=missing) as caught:
         make_detector("openpose_onnx")
     assert caught.value.code == "not_installed"

@@ -2,18 +2,19 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import math
+
+import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
 
 from teo_skeleton_retriever.compat.original_skeleton import (
-    CHAINS,
-    FALLBACKS,
-    FROM_BODY_25,
-    LIMBS,
-    MIDPOINTS,
-    PARENTS,
     SKELETON_STD,
 )
 from teo_skeleton_retriever.layouts.layout import BODY_25, COCO_18, FACE_70, HAND_21, Layout
+from teo_skeleton_retriever.layouts.skeleton_3d import BodyFrame, body_frame
 
 SIZES = {BODY_25: 25, COCO_18: 18, HAND_21: 21, FACE_70: 70, SKELETON_STD: 17}
 
@@ -21,12 +22,6 @@ SIZES = {BODY_25: 25, COCO_18: 18, HAND_21: 21, FACE_70: 70, SKELETON_STD: 17}
 @pytest.mark.parametrize("layout", SIZES, ids=lambda layout: layout.name)
 def test_every_layout_has_its_number_of_different_keypoints(layout: Layout) -> None:
     assert len(layout) == SIZES[layout] == len(set(layout.keypoints))
-
-
-@pytest.mark.parametrize("layout", SIZES, ids=lambda layout: layout.name)
-def test_bones_join_known_keypoints_and_none_twice(layout: Layout) -> None:
-    assert all(a in layout.index and b in layout.index and a != b for a, b in layout.bones)
-    assert len({frozenset(bone) for bone in layout.bones}) == len(layout.bones)
 
 
 def test_body_25_is_numbered_as_openpose_documents() -> None:
@@ -61,23 +56,62 @@ def test_face_rings_are_closed_and_pupils_stand_alone() -> None:
     assert not any("Face68" in bone or "Face69" in bone for bone in FACE_70.bones)
 
 
-def test_the_original_skeleton_is_one_tree_from_the_shoulder_centre() -> None:
-    for tag in PARENTS:
-        seen = [tag]
-        while (parent := PARENTS[seen[-1]]) is not None:
-            seen.append(parent)
-            assert len(seen) <= len(PARENTS)
-        assert seen[-1] == "shoulderCenter"
+# Someone who faces the camera, upright, at 2 m, in its optical frame: x right, y down, z away.
+FACING = {
+    "left_shoulder": np.array([0.2, -0.3, 2.0]),
+    "right_shoulder": np.array([-0.2, -0.3, 2.0]),
+    "left_hip": np.array([0.12, 0.2, 2.0]),
+    "right_hip": np.array([-0.12, 0.2, 2.0]),
+}
+NOWHERE = np.full(3, math.nan)
+angles = st.floats(-math.pi, math.pi)
+moves = st.tuples(angles, angles, angles, st.floats(-3, 3), st.floats(-3, 3), st.floats(-3, 3))
 
 
-def test_every_original_keypoint_comes_from_one_of_body_25() -> None:
-    assert set(FROM_BODY_25.values()) == set(SKELETON_STD.keypoints)
-    assert set(FROM_BODY_25) <= set(BODY_25.keypoints)
-    assert set(FALLBACKS.values()) <= set(BODY_25.keypoints)
-    assert all(PARENTS[tag] == "hipCenter" for tag in MIDPOINTS["hipCenter"])
+def frame_of(points: dict[str, np.ndarray]) -> BodyFrame:
+    frame = body_frame(**points)
+    assert frame is not None
+    return frame
 
 
-def test_chains_follow_parents_and_every_limb_lies_in_one() -> None:
-    for chain in CHAINS:
-        assert [PARENTS[tag] for tag in chain[1:]] == list(chain[:-1])
-    assert sorted(tag for chain in CHAINS for tag in chain[1:]) == sorted(LIMBS)
+def test_someone_who_faces_the_camera_looks_at_it() -> None:
+    frame = frame_of(FACING)
+    np.testing.assert_allclose(frame.origin, [0.0, 0.2, 2.0])
+    x, y, z = frame.rotation.T
+    np.testing.assert_allclose(x, [0, 0, -1], atol=1e-12)  # out of the chest, towards the camera
+    np.testing.assert_allclose(y, [1, 0, 0], atol=1e-12)  # the person's left is the camera's right
+    np.testing.assert_allclose(z, [0, -1, 0], atol=1e-12)  # up
+    assert frame.anchor == "hips"
+
+
+@given(moves)
+@settings(max_examples=50, deadline=None)
+def test_in_the_body_frame_it_does_not_matter_where_a_person_stands(move: tuple[float, ...]) -> None:
+    rotation, shift = Rotation.from_euler("xyz", move[:3]).as_matrix(), np.array(move[3:])
+    hand = np.array([0.1, 0.0, 1.6])
+    moved = frame_of({name: rotation @ point + shift for name, point in FACING.items()})
+    np.testing.assert_allclose(
+        moved.from_camera(rotation @ hand + shift), frame_of(FACING).from_camera(hand), atol=1e-9
+    )
+    np.testing.assert_allclose(moved.rotation.T @ moved.rotation, np.eye(3), atol=1e-12)
+    assert np.linalg.det(moved.rotation) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("hips", [{"left_hip": None}, {"right_hip": NOWHERE}])
+def test_without_hips_it_stands_on_the_shoulders(hips: dict[str, np.ndarray | None]) -> None:
+    frame = frame_of({**FACING, **hips})
+    assert frame.anchor == "shoulders"
+    np.testing.assert_allclose(frame.origin, [0.0, -0.3, 2.0])
+    np.testing.assert_allclose(frame.rotation, frame_of(FACING).rotation, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"left_shoulder": NOWHERE},
+        {"left_shoulder": FACING["right_shoulder"]},
+        {"left_hip": np.array([5.0, -0.3, 2.0]), "right_hip": np.array([5.0, -0.3, 2.0])},
+    ],
+)
+def test_points_that_make_no_frame_give_none(changes: dict[str, np.ndarray]) -> None:
+    assert body_frame(**{**FACING, **changes}) is None

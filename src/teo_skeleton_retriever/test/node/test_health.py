@@ -8,8 +8,7 @@ import pytest
 
 from teo_common.diagnostics import Level
 from teo_skeleton_retriever.errors import RetrieverError
-from teo_skeleton_retriever.node.health import Problem, assess
-from teo_skeleton_retriever.node.stream_stats import Result, StreamStats
+from teo_skeleton_retriever.node.health import Problem, Result, StreamStats, assess
 
 TOPICS = {"color": "/c", "depth": "/d", "camera_info": "/i"}
 
@@ -33,16 +32,16 @@ def test_rates_and_delays_are_those_of_the_last_ten_seconds():
     report = streaming(30.0).report(30.0)
     assert report.rates["color"] == pytest.approx(30.0, rel=0.02)
     assert report.rates["results"] == pytest.approx(30.0, rel=0.02)
-    assert report.delay.median == pytest.approx(0.02)
-    assert report.own.p99 == pytest.approx(0.004)
+    assert report.times["arrival to result"].median == pytest.approx(0.02)
+    assert report.times["own time"].p99 == pytest.approx(0.004)
     assert report.results == 900
-    assert report.signer == 3
+    assert report.last.signer == 3
 
 
 def test_a_stream_that_stopped_loses_its_rate():
     report = streaming(5.0).report(16.0)
     assert report.rates["color"] == 0.0
-    assert math.isnan(report.delay.median)
+    assert math.isnan(report.times["arrival to result"].median)
     assert report.silent["depth"] == pytest.approx(11.0, abs=0.1)
 
 

@@ -42,19 +42,6 @@ class Done:
         assert self.count.acquire(timeout=10)
 
 
-def test_the_newest_job_takes_the_place_of_one_that_waits():
-    first, done = Gate(), Done()
-    pipeline = LatestFramePipeline(first, done)
-    assert pipeline.submit(1) is None
-    first.wait()
-    assert [pipeline.submit(job) for job in (2, 3, 4)] == [None, 2, 3]
-    first.go_on.release(2)
-    done.wait()
-    done.wait()
-    pipeline.close()
-    assert done.jobs == [1, 4]
-
-
 def test_the_second_stage_of_one_runs_beside_the_first_of_the_next():
     first, second = Gate(), Gate()
     pipeline = LatestFramePipeline(first, second)
@@ -69,24 +56,6 @@ def test_the_second_stage_of_one_runs_beside_the_first_of_the_next():
     second.wait()
     pipeline.close()
     assert second.jobs == [1, 2]
-
-
-def test_a_slow_second_stage_holds_the_first_back():
-    first, second = Gate(), Gate()
-    first.go_on.release(10)
-    pipeline = LatestFramePipeline(first, second)
-    pipeline.submit(1)
-    second.wait()
-    first.wait()
-    pipeline.submit(2)
-    first.wait()
-    assert [pipeline.submit(job) for job in (3, 4)] == [None, 3]
-    assert not first.begun.acquire(timeout=0.05)  # 2 waits for the second stage, and 4 to be begun
-    second.go_on.release(10)
-    second.wait()
-    second.wait()
-    pipeline.close()
-    assert second.jobs == [1, 2, 4]
 
 
 def test_several_first_stages_run_at_once_and_the_order_stays():
@@ -109,24 +78,6 @@ def test_several_first_stages_run_at_once_and_the_order_stays():
     done.wait()
     pipeline.close()
     assert done.jobs == [0, 1]
-
-
-def test_what_the_first_stage_leaves_out_does_not_reach_the_second():
-    done, left_out = Done(), threading.Event()
-
-    def first(job: int) -> int | None:
-        if job == 1:
-            left_out.set()
-            return None
-        return job
-
-    pipeline = LatestFramePipeline(first, done)
-    pipeline.submit(1)
-    assert left_out.wait(timeout=10)
-    pipeline.submit(2)
-    done.wait()
-    pipeline.close()
-    assert done.jobs == [2]
 
 
 @pytest.mark.parametrize("at_once", [1, 3])

@@ -1,7 +1,5 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Who the node publishes, and how."""
-
 from __future__ import annotations
 
 import math
@@ -10,15 +8,16 @@ from typing import Any
 import camera_take as take
 import numpy as np
 import pytest
-from node_bench import IMAGES, NodeBench
+from rclpy.parameter import Parameter
 from sensor_msgs.msg import Image
-from teo_sign_msgs.msg import Keypoint3D, Skeleton3D
+from teo_sign_msgs.msg import Keypoint3D
 from teo_sign_msgs.srv import LockSigner
 from visualization_msgs.msg import MarkerArray
 
-from teo_skeleton_retriever.detectors import make_detector
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25
-from teo_skeleton_retriever.layouts.person_2d import Person2D
+from teo_skeleton_retriever.node.node_parameters import PARAMETERS
+from teo_skeleton_retriever.node.retriever_node import RetrieverNode
 
 
 def test_a_person_is_published_in_the_cameras_frame_with_the_stamp_of_the_image(start):
@@ -51,48 +50,6 @@ def test_an_empty_scene_gives_an_empty_array_for_each_image(start):
     bench.send_until(lambda: len(bench.arrays) > 3)
     assert all(not message.skeletons for message in bench.arrays)
     bench.until(lambda: bench.said("people") == "0" and int(bench.said("results")) > 3)
-
-
-def test_ten_people_are_ten_skeletons_with_one_signer(start):
-    bench = start(*(take.person(shift) for shift in range(-110, 140, 25)))
-    flat = np.full((take.HEIGHT, take.WIDTH), 2000, dtype=np.uint16)
-    bench.send_until(
-        lambda: bench.arrays and len(bench.arrays[-1].skeletons) == 10,
-        depth=lambda s: take.image_message(flat, "16UC1", s),
-    )
-    people = bench.arrays[-1].skeletons
-    assert [person.id for person in people] == sorted({person.id for person in people})
-    assert sum(person.is_signer for person in people) == 1
-
-
-def test_half_a_person_is_followed_as_far_as_it_is_seen(start):
-    body = take.person().body.copy()
-    body[8:15] = 0.0  # what is below the table
-    bench = start(Person2D(body=body))
-    bench.send_until(bench.followed)
-    (person,) = bench.arrays[-1].skeletons
-    assert person.body[BODY_25.index["MidHip"]].status == Keypoint3D.STATUS_LOST
-    assert person.body_frame_origin == Skeleton3D.BODY_FRAME_SHOULDERS
-
-
-def test_who_leaves_and_returns_is_the_same_person(context):
-    stamps = [(take.START + i * take.PERIOD) * 1e-9 for i in range(IMAGES)]
-    gone = range(20, 60)  # for 1.3 s
-    frames = [(s, () if i in gone else (take.person(),)) for i, s in enumerate(stamps)]
-    bench = NodeBench(context, make_detector("replay", frames=frames))
-    try:
-        bench.send_until(bench.followed)
-        before = bench.arrays[-1].skeletons[0].id
-        bench.send_until(lambda: not bench.arrays[-1].skeletons)
-        assert bench.recovers()
-        assert bench.arrays[-1].skeletons[0].id == before
-    finally:
-        bench.close()
-
-
-def test_compressed_colour_and_depth_are_followed(start):
-    bench = start(take.person(), color_transport="compressed", depth_transport="compressedDepth")
-    bench.send_until(bench.followed, color=take.compressed_color, depth=take.compressed_depth)
 
 
 def test_what_is_published_compressed_alone_is_found_by_itself(start):
@@ -139,3 +96,46 @@ def test_the_originals_processing_can_be_asked_for(start):
     wrist = bench.arrays[-1].skeletons[0].body[BODY_25.index["RWrist"]]
     assert wrist.position.z == pytest.approx(take.DISTANCE, abs=1e-6)  # the skin, as the original has it
     assert math.isnan(wrist.sigma[0])
+
+
+def test_images_between_periods_are_left_out(start):
+    bench = start(take.person(), period=0.1)
+    bench.send_until(lambda: len(bench.arrays) > 3)
+    stamps = np.array([m.header.stamp.sec + m.header.stamp.nanosec * 1e-9 for m in bench.arrays])
+    assert np.diff(stamps).min() >= 0.1 - 1e-6
+
+
+def test_every_parameter_has_a_description_and_a_range_and_wrong_values_are_refused(start):
+    bench = start()
+    for row in PARAMETERS:
+        descriptor = bench.node.describe_parameter(row.name)
+        assert descriptor.description
+        value = bench.node.get_parameter(row.name).value
+        assert (tuple(value) if isinstance(value, list) else value) == row.default
+        if isinstance(row.default, float) or type(row.default) is int:
+            assert len(descriptor.integer_range) + len(descriptor.floating_point_range) == 1
+
+    def set_to(name: str, value: Any) -> bool:
+        return bool(bench.node.set_parameters([Parameter(name, value=value)])[0].successful)
+
+    assert not set_to("slop", 0.1)  # read-only
+    assert not set_to("signer_rule", "tallest")
+    assert not set_to("min_confidence", 1.5)
+    assert not set_to("max_depth", 0.2)  # not above min_depth
+    assert set_to("signer_rule", "central")
+    assert set_to("period", 0.05)
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "code"),
+    [
+        ("compat", "other", "unknown_choice"),
+        ("detector", "guess", "unknown_choice"),
+        ("detector_options", ["folder"], "bad_option"),
+        ("detector_options", ["=x"], "bad_option"),
+    ],
+)
+def test_a_wrong_parameter_stops_the_start_with_its_reason(context, name, value, code):
+    with pytest.raises(RetrieverError) as refused:
+        RetrieverNode(context=context, parameter_overrides=[Parameter(name, value=value)])
+    assert refused.value.code == code

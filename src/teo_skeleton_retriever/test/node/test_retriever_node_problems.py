@@ -11,7 +11,6 @@ import camera_take as take
 import numpy as np
 import pytest
 from node_bench import NodeBench
-from sensor_msgs.msg import Image
 
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.person_2d import Person2D
@@ -59,54 +58,6 @@ def test_depth_without_a_single_value_is_told_and_recovered_from(start):
         )
         assert bench.arrays
         assert bench.recovers()
-
-
-def test_the_resolution_may_change_in_mid_stream(context):
-    class Scaling:
-        """Sees the person at the size of the image, as a real detector does."""
-
-        name = "scaling"
-        images_at_once = 1
-
-        def detect(self, image: np.ndarray, stamp: float) -> tuple[Person2D, ...]:
-            del stamp
-            return (take.person(scale=image.shape[1] / take.WIDTH),)
-
-        def close(self) -> None:
-            pass
-
-    bench = NodeBench(context, Scaling())
-    try:
-        bench.send_until(bench.followed)
-        before = bench.arrays[-1].skeletons[0]
-        bench.arrays.clear()
-        large = {
-            "color": lambda s: take.color_message(s, scale=2),
-            "depth": lambda s: take.depth_message(s, scale=2),
-            "info": lambda s: take.camera_info(s, scale=2),
-        }
-        bench.send_until(bench.followed, **large)
-        after = bench.arrays[-1].skeletons[0]
-        assert after.id == before.id
-        assert after.body[4].position.x == pytest.approx(before.body[4].position.x, abs=0.02)
-    finally:
-        bench.close()
-
-
-def test_colour_without_depth_of_its_time_is_counted(start):
-    bench = start(take.person())
-
-    def late(stamp: int) -> Image:
-        return take.depth_message(stamp + take.PERIOD * 100)
-
-    bench.send_until(lambda: int(bench.said("dropped no_depth")) > 3, depth=late)
-    assert not bench.arrays
-
-
-def test_silence_is_told(start):
-    bench = start()
-    bench.until(lambda: bench.summary.startswith("nothing comes on /camera/color/image_raw"))
-    assert bench.diagnostics[-1].status[0].level == b"\x01"
 
 
 def test_what_it_has_no_time_for_is_dropped_for_the_newest_and_counted(context):

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 from std_msgs.msg import Header
 from teo_sign_msgs.msg import Skeleton3D
+from visualization_msgs.msg import Marker
 
 from teo_skeleton_retriever.layouts.skeleton_3d import SKELETON_PARTS, BodyFrame, Keypoints3D, Skeleton
-from teo_skeleton_retriever.output.messages import skeleton_array
+from teo_skeleton_retriever.output.messages import marker_array, skeleton_array
 
 
 def keypoints(n: int, seed: int) -> Keypoints3D:
@@ -82,12 +82,37 @@ def test_every_keypoint_has_its_name_and_a_lost_part_is_left_out():
     assert np.isnan(message.body_frame.position.x)
 
 
-def test_nobody_is_an_empty_array_with_a_header():
-    message = skeleton_array([], Header(frame_id="camera"))
-    assert (list(message.skeletons), message.header.frame_id) == ([], "camera")
+def person(track_id: int, known: list[int], is_signer: bool = False) -> Skeleton:
+    parts = {part: Keypoints3D.lost(len(layout)) for part, layout in SKELETON_PARTS.items()}
+    points, status = np.full((25, 3), np.nan), np.zeros(25, dtype=np.uint8)
+    points[known] = np.column_stack([np.arange(len(known)), np.zeros(len(known)), np.ones(len(known))])
+    status[known] = 1
+    parts["body"] = Keypoints3D(
+        points=points,
+        confidence=np.ones(25),
+        status=status,
+        sigma=np.full((25, 3), 0.01),
+        pixels=np.full((25, 2), np.nan),
+    )
+    return Skeleton(track_id=track_id, is_signer=is_signer, body_frame=None, **parts)
 
 
-@pytest.mark.parametrize("part", SKELETON_PARTS)
-def test_the_message_bounds_are_those_of_the_layouts(part):
-    (message,) = skeleton_array([skeleton()], Header()).skeletons
-    assert len(getattr(message, part)) == len(SKELETON_PARTS[part])
+def test_a_person_is_bones_joints_and_a_label():
+    markers = marker_array([person(7, [1, 2, 3], is_signer=True)], Header(frame_id="camera")).markers
+    bones, joints, label = markers
+    assert [marker.type for marker in markers] == [
+        Marker.LINE_LIST,
+        Marker.SPHERE_LIST,
+        Marker.TEXT_VIEW_FACING,
+    ]
+    assert len(bones.points) == 4  # neck to shoulder to elbow
+    assert (len(joints.points), len(joints.colors)) == (3, 3)
+    assert label.text == "7 signer"
+    assert {marker.header.frame_id for marker in markers} == {"camera"}
+    assert all(marker.lifetime.nanosec or marker.lifetime.sec for marker in markers)
+
+
+def test_only_what_is_known_is_marked_and_no_number_is_nan():
+    for marker in marker_array([person(0, [4]), person(1, [])], Header()).markers:
+        assert marker.type != Marker.LINE_LIST
+        assert all(np.isfinite([point.x, point.y, point.z]).all() for point in marker.points)

@@ -10,7 +10,6 @@ from teo_skeleton_retriever.camera.rgbd_image import RgbdImage
 from teo_skeleton_retriever.image_retriever import Retrieved
 from teo_skeleton_retriever.layouts.skeleton_3d import SKELETON_PARTS, Keypoints3D, KeypointStatus, Skeleton
 from teo_skeleton_retriever.output.overlay import STATUS_COLORS, Overlay
-from teo_skeleton_retriever.output.overlay_video import overlay_video
 
 
 def image(scale: int = 1, stamp: float = 1.0) -> RgbdImage:
@@ -78,12 +77,6 @@ def test_a_keypoint_without_a_place_is_crossed_where_the_detector_saw_it():
     assert found[98:103, 98:103].any()
 
 
-def test_the_image_itself_stays_as_it_is_and_nobody_is_no_trouble():
-    before = image()
-    Overlay().draw(before, Retrieved((), (), 0.0, float("nan"), 0.0, 0.0))
-    assert (before.color == 90).all()
-
-
 def test_people_outside_the_picture_and_half_in_it_are_drawn_without_trouble():
     for place in (-500.0, -0.9, 0.9, 500.0):
         assert drawn(person(KeypointStatus.MEASURED, place)).shape == (take.HEIGHT, take.WIDTH, 3)
@@ -97,17 +90,3 @@ def test_depth_is_shown_in_the_corner_with_holes_dark():
     assert Overlay().draw(blind, Retrieved((), (), 0.0, float("nan"), 0.0, 0.0))[corner].max() < 60
     seen = drawn()[corner]
     assert seen.max() > 100
-
-
-def test_large_pictures_get_thick_lines():
-    def thickness(scale: int) -> int:
-        picture = drawn(person(KeypointStatus.MEASURED), scale=scale)
-        return int(close_to(picture, STATUS_COLORS[KeypointStatus.MEASURED])[:, 130 * scale].sum())
-
-    assert thickness(4) >= 2 * thickness(1)
-
-
-def test_a_film_without_a_picture_leaves_no_file(tmp_path):
-    with overlay_video(tmp_path / "out.mp4"):
-        pass
-    assert not list(tmp_path.iterdir())

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from capsule_person import FOREARM, ROW, SHOULDERS, UPPER_ARM, pose
 
-from teo_skeleton_retriever.tracking.body_size import BodySize, widened
+from teo_skeleton_retriever.tracking.body_size import BodySize, LimbLength
 
 
 def seen(size: float, images: int = 60, *, noise: float = 0.008) -> BodySize:
@@ -26,11 +26,6 @@ def test_lengths_are_those_of_the_person(size: float) -> None:
     assert estimate.length("upper arm")[0] == pytest.approx(size * UPPER_ARM, abs=0.01)
     assert estimate.length("forearm")[0] == pytest.approx(size * FOREARM, abs=0.01)
     assert estimate.scale == pytest.approx(size * SHOULDERS / 0.36, rel=0.05)
-
-
-def test_before_anything_is_seen_a_person_is_average_and_that_is_uncertain() -> None:
-    assert BodySize().scale == 1.0
-    assert BodySize().length("forearm")[1] > 2 * seen(1.0).length("forearm")[1]
 
 
 def test_arms_that_a_detector_sees_short_for_minutes_are_not_believed_to_be() -> None:
@@ -79,6 +74,56 @@ def test_hands_differ_less_than_shoulders() -> None:
     assert 1.0 < large.hand_scale / small.hand_scale < large.scale / small.scale
 
 
-def test_points_are_moved_apart_about_their_middle() -> None:
-    pair = np.array([[0.0, 1.0], [4.0, 3.0]])
-    np.testing.assert_allclose(widened(pair, 1.5), [[-1.0, 0.5], [5.0, 3.5]])
+NEAR = np.array([0.1, 0.2, 1.8])
+
+
+def ends(length: float, along: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+    """A limb whose direction has this share along the camera's axis."""
+    direction = np.array([math.sqrt(1.0 - along**2), 0.0, along])
+    return NEAR, NEAR + length * direction
+
+
+def test_ours_has_an_estimate_after_a_third_of_a_second() -> None:
+    limb = LimbLength()
+    for _ in range(9):
+        limb.step(*ends(0.28))
+    assert limb.value is None
+    limb.step(*ends(0.28))
+    assert limb.value == pytest.approx(0.28)
+
+
+def test_a_bad_start_is_forgotten() -> None:
+    limb = LimbLength()
+    for _ in range(41):
+        limb.step(*ends(0.45))
+    assert limb.value == pytest.approx(0.45)
+    for _ in range(300):
+        limb.step(*ends(0.27))
+    assert limb.value == pytest.approx(0.27)
+
+
+def test_two_fifths_of_wild_lengths_do_not_move_it() -> None:
+    random = np.random.default_rng(2)
+    limb = LimbLength()
+    for _ in range(300):
+        wild = random.random() < 0.4
+        limb.step(*ends(random.uniform(0.1, 0.6) if wild else random.normal(0.27, 0.004)))
+    assert limb.value == pytest.approx(0.27, abs=0.006)
+
+
+def test_limbs_across_the_view_count_more_than_limbs_along_it() -> None:
+    limb = LimbLength()
+    for _ in range(60):
+        limb.step(*ends(0.40, along=0.95))
+    for _ in range(40):
+        limb.step(*ends(0.27, along=0.1))
+    assert limb.value == pytest.approx(0.27)
+
+
+@pytest.mark.parametrize("length", [0.0, 0.05, 0.9, math.nan, math.inf])
+def test_lengths_that_no_human_has_do_not_count(length: float) -> None:
+    limb = LimbLength()
+    for _ in range(50):
+        limb.step(NEAR, NEAR + np.array([length, 0.0, 0.0]))
+    assert limb.value is None
+    assert not limb.too_long(10.0)

@@ -39,19 +39,6 @@ def test_at_rest_noise_is_averaged_out() -> None:
     assert found[45:].std() < 0.75 * seen[45:, :, 2].std()
 
 
-def test_without_smoothing_what_comes_out_is_what_came_in() -> None:
-    seen = still(10, 5)
-    np.testing.assert_allclose(depths(play(make(5, smoothing=0.0), seen)), seen[:, :, 2], atol=1e-6)
-
-
-def test_the_first_image_is_shown_at_once_and_not_frozen() -> None:
-    seen = still(4, 1)
-    seen[:, 0, 2] = (1.5, 1.52, 1.54, 1.56)
-    found = depths(play(make(), seen))[:, 0]
-    assert found[0] == pytest.approx(1.5)
-    assert (np.diff(found) > 0.01).all()
-
-
 @pytest.mark.parametrize("frequency", [1.0, 2.5])
 def test_a_fast_hand_is_followed_without_delay(frequency: float) -> None:
     times = np.arange(90) / RATE
@@ -136,20 +123,3 @@ def test_a_held_hand_comes_to_rest() -> None:
     held = depths(play(filter_, np.full((8, 1, 3), math.nan), start=20 / RATE))[:, 0]
     assert held[-1] - seen[-1, 0, 2] < 1.5 * 0.17 + 0.03
     assert np.diff(held)[-1] < 0.5 * np.diff(held)[0]
-
-
-def test_an_image_at_the_same_time_is_one_more_measurement() -> None:
-    filter_ = make()
-    for value in still(20, 1):
-        output = filter_.step(1.0, value, SIGMA[None])
-    assert output.depth[0] == pytest.approx(1.5, abs=0.01)
-    assert output.sigma[0, 2] < SIGMA[2] / 3
-
-
-def test_expecting_changes_nothing() -> None:
-    one, other = make(3), make(3)
-    seen = still(20, 3)
-    play(one, seen[:10])
-    play(other, seen[:10])
-    one.predict(1.0)
-    np.testing.assert_array_equal(depths(play(one, seen[10:], 0.4)), depths(play(other, seen[10:], 0.4)))

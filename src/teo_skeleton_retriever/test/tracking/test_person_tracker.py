@@ -11,11 +11,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from teo_skeleton_retriever.errors import RetrieverError
-from teo_skeleton_retriever.tracking.person_tracker import PersonTracker, TrackerSettings
+from teo_skeleton_retriever.tracking.person_tracker import PersonTracker, SignerChoice
 
 RATE = 30.0  # [1/s]
 NOWHERE = np.full(3, math.nan)
-AT_ONCE = TrackerSettings(newcomer_images=1)
+AT_ONCE = 1
 
 
 def walk(*ways: list[np.ndarray | None], tracker: PersonTracker | None = None) -> list[list[int | None]]:
@@ -48,14 +48,6 @@ def test_someone_gets_an_id_in_their_third_image() -> None:
     assert walk(line((0, 0, 2), (0, 0, 2), 5)) == [[None], [None], [0], [0], [0]]
 
 
-def test_a_flicker_becomes_nobody() -> None:
-    tracker = PersonTracker()
-    assert tracker.step(0.0, [np.array([0.0, 0.0, 2.0])]) == [None]
-    for i in range(1, 90):
-        tracker.step(i / RATE, [])
-    assert tracker.people == {}
-
-
 def test_two_who_cross_at_different_depths_keep_their_ids() -> None:
     assert kept(walk(line((-1, 0, 2.0), (1, 0, 2.0)), line((1, 0, 2.6), (-1, 0, 2.6))))
 
@@ -84,28 +76,11 @@ def test_who_returns_within_the_memory_is_who_they_were_and_later_is_new() -> No
         assert (tracker.step(gap, [place]) == first) is same
 
 
-def test_someone_far_away_is_not_who_left() -> None:
-    tracker = PersonTracker(AT_ONCE)
-    assert tracker.step(0.0, [np.array([-1.0, 0.0, 2.0])]) == [0]
-    assert tracker.step(1.0, [np.array([1.0, 0.0, 2.0])]) == [1]
-
-
-def test_ten_people_in_two_rows_keep_their_ids() -> None:
-    ways = [line((x, 0, z), (x + 0.3, 0, z)) for x in (-1.2, -0.6, 0.0, 0.6, 1.2) for z in (2.0, 3.0)]
-    assert kept(walk(*ways))
-
-
 def test_as_many_as_possible_are_recognised() -> None:
     """The nearest pair is not taken first if that leaves somebody unrecognised."""
     tracker = PersonTracker(AT_ONCE)
     tracker.step(0.0, [np.array([0.0, 0.0, 2.0]), np.array([0.3, 0.0, 2.0])])
     assert tracker.step(0.001, [np.array([0.25, 0.0, 2.0]), np.array([0.6, 0.0, 2.0])]) == [0, 1]
-
-
-def test_detections_without_a_place_are_nobody() -> None:
-    tracker = PersonTracker(AT_ONCE)
-    assert tracker.step(0.0, [NOWHERE, np.array([0.0, 0.0, 2.0])]) == [None, 0]
-    assert tracker.step(0.1, []) == []
 
 
 def test_time_that_runs_backwards_forgets_people_but_no_id_is_given_twice() -> None:
@@ -149,9 +124,43 @@ def test_a_time_that_is_none_is_refused(time: float) -> None:
     assert caught.value.code == "bad_time"
 
 
-@pytest.mark.parametrize(
-    "changes", [{"gate": 0.0}, {"memory": math.nan}, {"max_gate": 0.1}, {"newcomer_images": 0}]
-)
-def test_settings_that_follow_nobody_are_refused(changes: dict[str, float]) -> None:
-    with pytest.raises(RetrieverError):
-        TrackerSettings(**changes)
+FAR_AHEAD = np.array([0.0, 0.0, 2.5])
+NEAR_ASIDE = np.array([0.8, 0.0, 1.5])
+
+
+def test_the_nearest_or_the_most_central_is_chosen() -> None:
+    people = {4: FAR_AHEAD, 7: NEAR_ASIDE}
+    assert SignerChoice("nearest", 3.0).step(0.0, people) == 7
+    assert SignerChoice("central", 3.0).step(0.0, people) == 4
+
+
+def test_a_signer_stays_when_somebody_comes_nearer() -> None:
+    choice = SignerChoice("nearest", 3.0)
+    assert choice.step(0.0, {1: FAR_AHEAD}) == 1
+    assert choice.step(0.1, {1: FAR_AHEAD, 2: NEAR_ASIDE}) == 1
+
+
+def test_a_signer_who_is_hidden_is_waited_for_then_given_up() -> None:
+    choice = SignerChoice("nearest", 2.0)
+    choice.step(0.0, {1: FAR_AHEAD})
+    assert choice.step(1.9, {2: NEAR_ASIDE}) is None
+    assert choice.signer == 1
+    assert choice.step(2.1, {2: NEAR_ASIDE}) == 2
+    assert choice.step(2.2, {1: FAR_AHEAD, 2: NEAR_ASIDE}) == 2
+
+
+def test_a_locked_signer_is_waited_for_without_end() -> None:
+    choice = SignerChoice("nearest", 0.1)
+    choice.lock(9)
+    assert choice.step(0.0, {1: FAR_AHEAD}) is None
+    assert choice.step(1e6, {1: FAR_AHEAD}) is None
+    assert choice.step(1e6 + 1, {1: FAR_AHEAD, 9: NEAR_ASIDE}) == 9
+
+
+def test_after_unlocking_the_signer_stays_until_they_leave() -> None:
+    choice = SignerChoice("nearest", 0.5)
+    choice.lock(1)
+    choice.step(0.0, {1: FAR_AHEAD, 2: NEAR_ASIDE})
+    choice.unlock()
+    assert choice.step(0.1, {1: FAR_AHEAD, 2: NEAR_ASIDE}) == 1
+    assert choice.step(1.0, {2: NEAR_ASIDE}) == 2

@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.detectors.mediapipe.holistic_graph import HolisticGraph, HolisticLandmarks
-from teo_skeleton_retriever.detectors.mediapipe.people_follower import PeopleFollower
-from teo_skeleton_retriever.detectors.mediapipe.people_graph import PeopleGraph
+from teo_skeleton_retriever.detectors.mediapipe.people_follower import PeopleFollower, PeopleGraph
 from teo_synthetic_signer import render_take
 
 Images = list[NDArray[np.uint8]]

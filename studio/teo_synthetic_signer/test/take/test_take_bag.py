@@ -12,7 +12,7 @@ from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from typer.testing import CliRunner
 
-from teo_skeleton_retriever.camera.image_messages import camera_of, color_of, depth_of
+from teo_skeleton_retriever.camera.rgbd_image import camera_of, color_of, depth_of
 from teo_synthetic_signer import SyntheticFrame, render_take
 from teo_synthetic_signer.cli.synthesize_cli import _app
 from teo_synthetic_signer.errors import SyntheticError

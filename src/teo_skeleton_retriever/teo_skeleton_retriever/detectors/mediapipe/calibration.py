@@ -7,25 +7,13 @@ Calibrated on rendered people; other bodies and motions are tested.
 
 from __future__ import annotations
 
-from functools import cache
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.layouts.layout import BODY_25, HAND_21
 from teo_skeleton_retriever.layouts.person_layout import HAND_BONES
-
-
-class Shift(NamedTuple):
-    """Moves a keypoint by a share of the vector from one keypoint to another."""
-
-    keypoint: str
-    start: str
-    end: str
-    share: float
-
 
 # MediaPipe puts shoulders too high, too far in and nearer to the trunk than a raised arm takes them, elbows
 # short of the joint. A shift is a share of a vector between two keypoints, so that it shrinks with distance
@@ -33,9 +21,10 @@ class Shift(NamedTuple):
 # most of them in motions by chance; in 71 other takes shoulders are 5 %
 # nearer for it than with shares of shoulders and trunk alone, elbows 4 % nearer than with one of the upper
 # arm alone. Wrists are short by nothing that could be told.
-BODY_SHIFTS: tuple[Shift, ...] = (
+# A row: the keypoint that is moved, the vector's start and end, the share.
+_BODY_SHIFTS = (
     *(
-        Shift(f"{side}{joint}", start.format(side, other), end.format(side, other), share)
+        (f"{side}{joint}", start.format(side, other), end.format(side, other), share)
         for side, other in (("R", "L"), ("L", "R"))
         for joint, start, end, share in (
             ("Shoulder", "{1}Shoulder", "{0}Shoulder", 0.042),
@@ -49,10 +38,10 @@ BODY_SHIFTS: tuple[Shift, ...] = (
         )
     ),
     # As the mean of both shoulders.
-    Shift("Neck", "Neck", "MidHip", 0.044),
-    Shift("Neck", "Neck", "Nose", 0.073),
-    Shift("Neck", "RShoulder", "RElbow", 0.0175),
-    Shift("Neck", "LShoulder", "LElbow", 0.0175),
+    ("Neck", "Neck", "MidHip", 0.044),
+    ("Neck", "Neck", "Nose", 0.073),
+    ("Neck", "RShoulder", "RElbow", 0.0175),
+    ("Neck", "LShoulder", "LElbow", 0.0175),
 )
 
 
@@ -60,31 +49,21 @@ BODY_SHIFTS: tuple[Shift, ...] = (
 EAR_BEHIND = 0.06
 
 
-def corrected_body(body: FloatArray, shifts: tuple[Shift, ...]) -> FloatArray:
+_SHIFTED, _STARTS, _ENDS = np.array([[BODY_25.index[name] for name in row[:3]] for row in _BODY_SHIFTS]).T
+_SHARES: FloatArray = np.array([row[3] for row in _BODY_SHIFTS])
+
+
+def corrected_body(body: FloatArray) -> FloatArray:
     """Move keypoints to the joints' centres; those for which a keypoint of the vector is absent stay.
 
     Args:
         body: x, y [px], confidence, in BODY_25; absent keypoints are zero. Shape (25, 3).
-        shifts: Of the detector.
     """
     moved = body.copy()
-    keypoints, starts, ends, shares = _shift_table(shifts)
-    seen = (body[starts, 2] > 0.0) & (body[ends, 2] > 0.0)
-    steps = (shares * seen)[:, None] * (body[ends, :2] - body[starts, :2])
-    np.add.at(moved[:, :2], keypoints, steps)
+    seen = (body[_STARTS, 2] > 0.0) & (body[_ENDS, 2] > 0.0)
+    steps = (_SHARES * seen)[:, None] * (body[_ENDS, :2] - body[_STARTS, :2])
+    np.add.at(moved[:, :2], _SHIFTED, steps)
     return moved
-
-
-@cache
-def _shift_table(
-    shifts: tuple[Shift, ...],
-) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp], FloatArray]:
-    """Rows of what is moved, rows of the vectors' starts and ends, shares. Shapes (n,)."""
-    keypoints, starts, ends = (
-        np.array([BODY_25.index[name] for name in names])
-        for names in zip(*((shift.keypoint, shift.start, shift.end) for shift in shifts), strict=True)
-    )
-    return keypoints, starts, ends, np.array([shift.share for shift in shifts])
 
 
 # MediaPipe's wrist is at the crease, its knuckles are at the web between the fingers, the base of its thumb

@@ -1,6 +1,12 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""MediaPipe Holistic: bodies, hands and faces of a few people, on the CPU."""
+"""MediaPipe Holistic: bodies, hands and faces of a few people, on the CPU, as OpenPose's keypoints.
+
+Sources: MediaPipe's pose and face mesh numbering; ROS4HRI's table of the face
+(`hri_face_detect/doc/mediapipe_face_mesh_2_ros4hri.md`), whose outer lip 55 to 59 runs the wrong way round
+there and is put right here; the eyes, inner lip and jaw are those in common use, which lie on the annotated
+contours.
+"""
 
 from __future__ import annotations
 
@@ -14,12 +20,109 @@ import numpy as np
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.detectors.detector import ImageArray, check_image
 from teo_skeleton_retriever.detectors.mediapipe.holistic_graph import HolisticGraph, HolisticLandmarks
-from teo_skeleton_retriever.detectors.mediapipe.mediapipe_landmarks import person_from_holistic
-from teo_skeleton_retriever.detectors.mediapipe.people_follower import PeopleFollower
-from teo_skeleton_retriever.detectors.mediapipe.people_graph import PeopleGraph
+from teo_skeleton_retriever.detectors.mediapipe.people_follower import PeopleFollower, PeopleGraph
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25, HAND_21
-from teo_skeleton_retriever.layouts.person_2d import Person2D
+from teo_skeleton_retriever.layouts.person_2d import Person2D, midpoint
+
+_NOTHING = np.zeros((0, 3))
+
+# Small toes have no counterpart.
+BODY_25_FROM_POSE: dict[str, int] = {
+    "Nose": 0,
+    "RShoulder": 12,
+    "RElbow": 14,
+    "RWrist": 16,
+    "LShoulder": 11,
+    "LElbow": 13,
+    "LWrist": 15,
+    "RHip": 24,
+    "RKnee": 26,
+    "RAnkle": 28,
+    "LHip": 23,
+    "LKnee": 25,
+    "LAnkle": 27,
+    "REye": 5,
+    "LEye": 2,
+    "REar": 8,
+    "LEar": 7,
+    "LBigToe": 31,
+    "LHeel": 29,
+    "RBigToe": 32,
+    "RHeel": 30,
+}
+# Keypoints that MediaPipe does not give: mean of two, with the lower confidence.
+_BODY_25_FROM_PAIRS: dict[str, tuple[str, str]] = {
+    "Neck": ("RShoulder", "LShoulder"),
+    "MidHip": ("RHip", "LHip"),
+}
+
+# Face mesh landmark of each of the 70, part by part; the pupils need the irises.
+FACE_70_FROM_MESH: dict[str, tuple[int, ...]] = {
+    "Jaw": (127, 234, 93, 132, 58, 136, 150, 176, 152, 400, 379, 365, 288, 361, 323, 454, 356),
+    "RBrow": (70, 63, 105, 66, 107),
+    "LBrow": (336, 296, 334, 293, 300),
+    "NoseBridge": (6, 197, 4, 1),
+    "Nostrils": (242, 141, 94, 370, 462),
+    "REye": (33, 160, 158, 133, 153, 144),
+    "LEye": (362, 385, 387, 263, 373, 380),
+    "OuterLip": (61, 40, 37, 0, 267, 270, 291, 321, 314, 17, 84, 91),
+    "InnerLip": (78, 81, 13, 311, 308, 402, 14, 178),
+    "RPupil": (468,),
+    "LPupil": (473,),
+}
+
+
+def person_from_holistic(landmarks: HolisticLandmarks, *, width: int, height: int) -> Person2D:
+    """Bring one person's landmarks into OpenPose's order and into pixels.
+
+    Args:
+        landmarks: Of the person. A hand that is the other one is left out.
+        width: Of the image [px].
+        height: Of the image [px].
+    """
+    size = np.array([width, height], dtype=np.float64)
+    left, right = own_hands(landmarks)
+    return without_doubles(
+        Person2D(
+            body=_body(landmarks.pose, size),
+            left_hand=_part(landmarks.left_hand if left else None, size, landmarks.left_hand_score),
+            right_hand=_part(landmarks.right_hand if right else None, size, landmarks.right_hand_score),
+            face=_face(landmarks.face, size, landmarks.face_score),
+            left_hand_world=landmarks.left_hand_world if left else None,
+            right_hand_world=landmarks.right_hand_world if right else None,
+        )
+    )
+
+
+def _body(pose: FloatArray | None, size: FloatArray) -> FloatArray:
+    if pose is None:
+        return _NOTHING
+    confident = np.column_stack([pose[:, :2], pose[:, 3:].min(axis=1)])  # in the image, and in view
+    body = np.zeros((len(BODY_25), 3))
+    for name, landmark in BODY_25_FROM_POSE.items():
+        body[BODY_25.index[name]] = confident[landmark] * [*size, 1.0]
+    for name, (first, second) in _BODY_25_FROM_PAIRS.items():
+        body[BODY_25.index[name]] = midpoint(body[BODY_25.index[first]], body[BODY_25.index[second]])
+    return body
+
+
+def _part(landmarks: FloatArray | None, size: FloatArray, confidence: float) -> FloatArray:
+    if landmarks is None:
+        return _NOTHING
+    return np.column_stack([landmarks[:, :2] * size, np.full(len(landmarks), confidence)])
+
+
+def _face(mesh: FloatArray | None, size: FloatArray, confidence: float) -> FloatArray:
+    if mesh is None:
+        return _NOTHING
+    chosen = np.array([i for part in FACE_70_FROM_MESH.values() for i in part])
+    seen = chosen < len(mesh)
+    face = np.zeros((len(chosen), 3))
+    face[seen, :2] = mesh[chosen[seen], :2] * size
+    face[seen, 2] = confidence
+    return face
+
 
 HAND_NETWORKS = ("full", "lite")
 # Four already take a second for six images on two cores; who signs is among the four nearest.
@@ -92,7 +195,8 @@ class MediaPipeDetector:
             if self._follower is follower:  # a graph that failed once refuses everything after
                 self._follower = self._make_follower()
             raise
-        return tuple(_person(landmarks, image) for landmarks in found)
+        height, width = image.shape[:2]
+        return tuple(person_from_holistic(landmarks, width=width, height=height) for landmarks in found)
 
     @property
     def people_left_out(self) -> int:
@@ -115,35 +219,6 @@ def _in_unit_range(name: str, value: float) -> float:
     if not (isinstance(value, int | float) and math.isfinite(value) and 0.0 <= value <= 1.0):
         raise RetrieverError("bad_option", f"{name}: expected a number in [0, 1], got {value!r}")
     return float(value)
-
-
-def _person(landmarks: HolisticLandmarks, image: ImageArray) -> Person2D:
-    pose = landmarks.pose
-    assert pose is not None
-    height, width = image.shape[:2]
-    left, right = own_hands(landmarks)
-    person = person_from_holistic(
-        width=width,
-        height=height,
-        pose=np.column_stack([pose[:, :2], pose[:, 3:].min(axis=1)]),
-        left_hand=_flat(landmarks.left_hand) if left else None,
-        right_hand=_flat(landmarks.right_hand) if right else None,
-        face=_flat(landmarks.face),
-        left_hand_confidence=landmarks.left_hand_score,
-        right_hand_confidence=landmarks.right_hand_score,
-        face_confidence=landmarks.face_score,
-    )
-    return without_doubles(
-        replace(
-            person,
-            left_hand_world=landmarks.left_hand_world if left else None,
-            right_hand_world=landmarks.right_hand_world if right else None,
-        )
-    )
-
-
-def _flat(landmarks: FloatArray | None) -> FloatArray | None:
-    return None if landmarks is None else landmarks[:, :2]
 
 
 # Where arms cross, MediaPipe's crop of one hand may settle on the other one and follow it for a second, as
@@ -171,7 +246,6 @@ def own_hands(landmarks: HolisticLandmarks) -> _OwnHands:
 # other, in 17 of 120 images. Mean distance of their keypoints, in mean distances from the hand's middle,
 # below which two hands are one. Of one hand taken twice it was 0 to 0.2; of two hands that touch, 0.9.
 _SAME_HAND = 0.35
-_NOTHING = np.zeros((0, 3))
 
 
 def without_doubles(person: Person2D) -> Person2D:

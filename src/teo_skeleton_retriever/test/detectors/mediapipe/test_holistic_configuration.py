@@ -10,7 +10,7 @@ import mediapipe
 import pytest
 from mediapipe.tasks.metadata import schema_py_generated as schema
 
-from teo_skeleton_retriever.detectors.mediapipe.pruning import without_output
+from teo_skeleton_retriever.detectors.mediapipe.holistic_configuration import without_output
 from teo_skeleton_retriever.errors import RetrieverError
 
 OUTLINE = (1, 256, 256, 1)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from sensor_msgs.msg import CameraInfo, RegionOfInterest
 
-from teo_skeleton_retriever.camera.image_messages import camera_of, color_of, depth_of, shows_depth, stamp_of
+from teo_skeleton_retriever.camera.rgbd_image import camera_of, color_of, depth_of, shows_depth
 from teo_skeleton_retriever.errors import RetrieverError
 
 
@@ -22,22 +22,12 @@ def test_messages_become_the_arrays_they_were_made_from():
     np.testing.assert_allclose(depth_of(swapped), take.depth(), atol=1e-6)
 
 
-def test_a_stamp_is_in_nanoseconds():
-    assert stamp_of(take.color_message(1_700_000_000_123_456_789)) == 1_700_000_000_123_456_789
-
-
 def test_colour_and_depth_are_told_apart():
     assert shows_depth(take.depth_message(0))
     assert shows_depth(take.compressed_depth(0))
     assert shows_depth(take.color_message(0)) is False
     assert shows_depth(take.compressed_color(0)) is False
     assert shows_depth(take.color_message(0, encoding="bayer_grbg8")) is None
-
-
-def test_the_camera_is_read():
-    camera = camera_of(take.camera_info(0))
-    assert (camera.width, camera.height, camera.fx, camera.cy) == (320, 240, 300.0, 119.5)
-    assert camera.distortion_model == ""  # coefficients of zero
 
 
 def test_distortion_is_kept_and_goes_where_the_images_are_rectified():

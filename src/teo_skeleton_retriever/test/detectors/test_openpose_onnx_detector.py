@@ -15,10 +15,10 @@ import pytest
 from drawn_maps import STRIDE, draw, person
 from onnx import TensorProto, helper, numpy_helper
 
+from teo_skeleton_retriever.detectors.openpose_onnx_detector import OpenPoseOnnxDetector
+from teo_skeleton_retriever.detectors.part_affinity import BODY_25_MODEL, COCO_18_MODEL, PafModel
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25
-from teo_skeleton_retriever.paf.openpose_onnx_detector import OpenPoseOnnxDetector
-from teo_skeleton_retriever.paf.pose_network import BODY_25_MODEL, COCO_18_MODEL, PafModel
 
 NET = (320, 240)
 
@@ -84,13 +84,6 @@ def test_people_are_given_in_pixels_of_the_image(tmp_path: Path, split: bool) ->
         assert (someone.body[:, 2] > 0.5).all()
 
 
-def test_an_image_of_another_shape_is_fitted_not_stretched(tmp_path: Path) -> None:
-    model = given_maps(tmp_path / "a.onnx", [person(90, 50, 110)])
-    detector = OpenPoseOnnxDetector(model=model, net_resolution=NET)
-    (someone,) = detector.detect(np.zeros((90, 320, 3), np.uint8), 0.0)
-    np.testing.assert_allclose(someone.body[:, :2], person(90, 50, 110), atol=2.0)
-
-
 def test_coco_bodies_come_as_body_25(tmp_path: Path) -> None:
     drawn = person(150, 60, 170, COCO_18_MODEL)
     model = given_maps(tmp_path / "a.onnx", [drawn], COCO_18_MODEL)
@@ -131,14 +124,6 @@ def test_the_network_sees_the_image_as_openposes_do(tmp_path: Path, scale: float
     assert (someone.body[:, 2] > 0).sum() == 3
 
 
-def test_an_empty_scene_has_nobody(tmp_path: Path) -> None:
-    model = given_maps(tmp_path / "a.onnx", [])
-    assert (
-        OpenPoseOnnxDetector(model=model, net_resolution=NET).detect(np.zeros((48, 64, 3), np.uint8), 0.0)
-        == ()
-    )
-
-
 def test_a_missing_or_broken_file_is_told(tmp_path: Path) -> None:
     assert code_of(OpenPoseOnnxDetector, model=tmp_path / "none.onnx") == "no_model"
     assert code_of(OpenPoseOnnxDetector, model=tmp_path) == "no_model"
@@ -161,28 +146,6 @@ def test_maps_that_are_not_of_the_images_shape_are_told(tmp_path: Path) -> None:
     assert code_of(OpenPoseOnnxDetector, model=model, net_resolution=(640, 240)) == "wrong_model"
 
 
-def test_a_network_of_one_size_says_so_when_asked_for_another(tmp_path: Path) -> None:
-    path = given_maps(tmp_path / "a.onnx", [])
-    model = onnx.load(str(path))
-    shape = [1, 78, NET[1] // STRIDE, NET[0] // STRIDE]
-    model.graph.initializer.append(numpy_helper.from_array(np.array(shape), "shape"))
-    model.graph.node[-1].input[0] = "reshaped"  # what the constant is added to
-    model.graph.node.insert(2, helper.make_node("Reshape", ["product0", "shape"], ["reshaped"]))
-    onnx.save(model, str(path))
-    OpenPoseOnnxDetector(model=path, net_resolution=NET)
-    assert code_of(OpenPoseOnnxDetector, model=path, net_resolution=(160, 160)) == "wrong_model"
-
-
 @pytest.mark.parametrize("resolution", [(-1, -1), (320, 100), (0, 160), (320,), (320.0, 240), (-16, 160)])
 def test_a_resolution_that_is_none_is_refused(tmp_path: Path, resolution: Any) -> None:
     assert code_of(OpenPoseOnnxDetector, model=tmp_path, net_resolution=resolution) == "bad_resolution"
-
-
-def test_images_and_closing_are_as_with_every_detector(tmp_path: Path) -> None:
-    detector = OpenPoseOnnxDetector(model=given_maps(tmp_path / "a.onnx", []), net_resolution=NET)
-    assert code_of(detector.detect, np.zeros((48, 64), np.uint8), 0.0) == "bad_image"
-    assert code_of(detector.detect, np.zeros((1, 4000, 3), np.uint8), 0.0) == "bad_image"
-    assert detector.detect(np.zeros((1, 8, 3), np.uint8), 0.0) == ()
-    detector.close()
-    detector.close()
-    assert code_of(detector.detect, np.zeros((48, 64, 3), np.uint8), 0.0) == "closed"

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""OpenPose beside us: its files, read as it writes them, or beside a recording; in pixels of the image."""
+"""Keypoints of OpenPose: read as it writes them, read beside a recording, or known already."""
 
 from __future__ import annotations
 
@@ -14,8 +14,7 @@ import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.detectors.detector import ImageArray, check_image
-from teo_skeleton_retriever.detectors.openpose.openpose_files import OpenPoseFrame
-from teo_skeleton_retriever.detectors.openpose.openpose_folder import PERIOD, OpenPoseFolder, StampTable
+from teo_skeleton_retriever.detectors.openpose_files import PERIOD, OpenPoseFolder, People, StampTable
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.person_2d import Person2D, as_body_25
 
@@ -154,15 +153,15 @@ class OpenPoseJsonDetector:
         if self._closed:
             raise RetrieverError("closed", "expected an open detector, got one that was closed")
         check_image(image, stamp)
-        frame = self._frame(stamp)
+        people = self._people(stamp)
         height, width = image.shape[:2]
-        return tuple(self._scale.to_pixels(person, width, height) for person in frame.people)
+        return tuple(self._scale.to_pixels(person, width, height) for person in people)
 
     def close(self) -> None:
         """Give nothing any more."""
         self._closed = True
 
-    def _frame(self, stamp: float) -> OpenPoseFrame:
+    def _people(self, stamp: float) -> People:
         if self._newest:
             return self._within_wait(self._read_newest, "a new file")
         number = self._next_number() if self._table is None else self._table.number_at(stamp)
@@ -186,14 +185,14 @@ class OpenPoseJsonDetector:
         self._last += 1
         return self._last
 
-    def _read(self, number: int) -> OpenPoseFrame | None:
+    def _read(self, number: int) -> People | None:
         files = self._folder.files()
         if number in files:
             return self._folder.read(files[number])
         # OpenPose writes in order: what a later file has overtaken does not come any more.
         return self._left_out() if any(other > number for other in files) else None
 
-    def _read_newest(self) -> OpenPoseFrame | None:
+    def _read_newest(self) -> People | None:
         assert self._last is not None
         files = self._folder.files()
         for number in sorted((number for number in files if number > self._last), reverse=True):
@@ -203,6 +202,58 @@ class OpenPoseJsonDetector:
                 return frame
         return None
 
-    def _left_out(self) -> OpenPoseFrame:
+    def _left_out(self) -> People:
         self.missing += 1
-        return OpenPoseFrame(())
+        return ()
+
+
+class ReplayDetector:
+    """Gives what is known for the time of an image; nobody where nothing is known.
+
+    Args:
+        frames: The time [s] and the people of each image, in any order.
+        folder: Instead, a folder of OpenPose's files that is written already.
+        stamps: The time of each file's number; see `StampTable`. Without it, the images are those of the
+            files in their order.
+
+    Raises:
+        RetrieverError: Neither frames nor folder, or both, or what `OpenPoseJsonDetector` raises.
+    """
+
+    name = "replay"
+    images_at_once = 1
+
+    def __init__(
+        self,
+        *,
+        frames: Sequence[tuple[float, Sequence[Person2D]]] | None = None,
+        folder: str | Path | None = None,
+        stamps: Mapping[int, float] | Mapping[str, float] | str | Path | None = None,
+    ) -> None:
+        if (frames is None) == (folder is None) or (folder is None and stamps is not None):
+            raise RetrieverError("bad_option", "expected either frames, or a folder with or without stamps")
+        self._folder = (
+            None if folder is None else OpenPoseJsonDetector(folder=folder, stamps=stamps, wait=0.0)
+        )
+        self._frames = [
+            (stamp, tuple(replace(person, body=as_body_25(person.body)) for person in people))
+            for stamp, people in frames or ()
+        ]
+        self._table = (
+            StampTable({i: stamp for i, (stamp, _) in enumerate(self._frames)}) if self._frames else None
+        )
+        self._closed = False
+
+    def detect(self, image: ImageArray, stamp: float) -> tuple[Person2D, ...]:
+        """Give the people of that time; see `Detector.detect`."""
+        if self._closed:
+            raise RetrieverError("closed", "expected an open detector, got one that was closed")
+        if self._folder is not None:
+            return self._folder.detect(image, stamp)
+        check_image(image, stamp)
+        number = None if self._table is None else self._table.number_at(stamp)
+        return () if number is None else self._frames[number][1]
+
+    def close(self) -> None:
+        """Give nothing any more."""
+        self._closed = True

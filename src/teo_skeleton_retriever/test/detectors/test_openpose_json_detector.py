@@ -10,29 +10,26 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from openpose_writer import format_frame, frame_path, write_frame
 
-from teo_skeleton_retriever.detectors.openpose.openpose_files import OpenPoseFrame
-from teo_skeleton_retriever.detectors.openpose.openpose_json_detector import (
+from teo_skeleton_retriever.detectors.openpose_files import People
+from teo_skeleton_retriever.detectors.openpose_json_detector import (
     KeypointScale,
     OpenPoseJsonDetector,
+    ReplayDetector,
 )
-from teo_skeleton_retriever.detectors.openpose.replay_detector import ReplayDetector
 from teo_skeleton_retriever.errors import RetrieverError
-from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
 WIDTH, HEIGHT = 640, 480
 IMAGE = np.zeros((HEIGHT, WIDTH, 3), np.uint8)
 
 
-def frame(mark: int, people: int = 1) -> OpenPoseFrame:
+def frame(mark: int, people: int = 1) -> People:
     """People whose nose is at x = mark, so that one sees which file was read."""
     body = np.zeros((25, 3))
     body[0] = mark, 7.0, 0.5
-    return OpenPoseFrame((Person2D(body=body),) * people)
+    return (Person2D(body=body),) * people
 
 
 def write(folder: Path, number: int, *, name: str = "{:012d}", people: int = 1) -> None:
@@ -65,15 +62,6 @@ def test_a_frame_left_out_has_no_people_and_shifts_nothing(tmp_path: Path) -> No
     assert detector.missing == 1
 
 
-def test_a_file_that_comes_later_is_waited_for(tmp_path: Path) -> None:
-    detector = OpenPoseJsonDetector(folder=tmp_path, wait=10.0)
-    for number in (0, 1):
-        writer = threading.Timer(0.15, write, (tmp_path, number))
-        writer.start()
-        assert mark_of(detector.detect(IMAGE, 0.1 * number)) == number
-        writer.join()
-
-
 def test_a_half_written_file_is_waited_for(tmp_path: Path) -> None:
     text = format_frame(frame(5))
     path = frame_path(tmp_path, "0")
@@ -92,16 +80,6 @@ def test_a_file_that_stays_half_fails_its_own_image_only(tmp_path: Path, text: s
     detector = OpenPoseJsonDetector(folder=tmp_path, wait=0.02)
     assert code_of(detector.detect, IMAGE, 0.0) == "late"
     assert mark_of(detector.detect(IMAGE, 0.1)) == 1
-
-
-def test_a_file_that_does_not_come_fails_its_own_image_only(tmp_path: Path) -> None:
-    write(tmp_path, 0)
-    detector = OpenPoseJsonDetector(folder=tmp_path, wait=0.02)
-    detector.detect(IMAGE, 0.0)
-    assert code_of(detector.detect, IMAGE, 0.1) == "late"
-    write(tmp_path, 1)
-    write(tmp_path, 2)
-    assert mark_of(detector.detect(IMAGE, 0.2)) == 2
 
 
 def test_what_is_not_openposes_is_told_at_once(tmp_path: Path) -> None:
@@ -151,31 +129,6 @@ def test_a_table_file_that_is_none_is_refused(tmp_path: Path, content: bytes) ->
     assert code_of(OpenPoseJsonDetector, folder=tmp_path, stamps=tmp_path / "none.csv") == "bad_stamps"
 
 
-def test_all_people_are_given(tmp_path: Path) -> None:
-    write(tmp_path, 0, people=10)
-    assert len(OpenPoseJsonDetector(folder=tmp_path).detect(IMAGE, 0.0)) == 10
-
-
-@pytest.mark.parametrize(
-    ("version", "key", "keypoints"),
-    [
-        (0.1, "body_parts", 18),
-        (1.0, "pose_keypoints", 18),
-        (1.1, "pose_keypoints", 15),
-        (1.2, "pose_keypoints_2d", 25),
-        (1.3, "pose_keypoints_2d", 25),
-    ],
-)
-def test_bodies_of_every_version_and_model_come_as_body_25(
-    tmp_path: Path, version: float, key: str, keypoints: int
-) -> None:
-    numbers = ",".join(f"{i},{i},0.5" for i in range(keypoints))
-    frame_path(tmp_path, "0").write_text(f'{{"version":{version},"people":[{{"{key}":[{numbers}]}}]}}')
-    body = OpenPoseJsonDetector(folder=tmp_path).detect(IMAGE, 0.0)[0].body
-    assert body.shape == (25, 3)
-    assert body[BODY_25.index["LWrist"]].tolist() == [7.0, 7.0, 0.5]  # the same place in all three models
-
-
 def test_folder_and_options_that_do_not_go_together_are_refused(tmp_path: Path) -> None:
     assert code_of(OpenPoseJsonDetector, folder=tmp_path / "none") == "no_folder"
     assert code_of(OpenPoseJsonDetector, folder=tmp_path, pairing="stamp") == "bad_option"
@@ -221,23 +174,11 @@ def test_every_keypoint_scale_comes_back_to_pixels(
     np.testing.assert_allclose(given_back[3], [*pixel, 0.9], atol=2e-3)
 
 
-@given(st.sampled_from([0, 3, 4]))
-def test_an_unseen_keypoint_is_zero_in_every_scale(scale: int) -> None:
-    unseen = -1.0 if scale == 4 else 0.0
-    hand = np.column_stack([np.full((21, 2), unseen), np.zeros(21)])
-    person = KeypointScale(scale, None).to_pixels(Person2D(left_hand=hand), WIDTH, HEIGHT)
-    assert not person.left_hand.any()
-
-
 def test_replay_gives_the_people_of_the_nearest_time() -> None:
-    frames = [(10.0 + i / 30.0, frame(i, people=i).people) for i in range(3)]
+    frames = [(10.0 + i / 30.0, frame(i, people=i)) for i in range(3)]
     detector = ReplayDetector(frames=list(reversed(frames)))
     assert [len(detector.detect(IMAGE, 10.0 + i / 30.0 + 0.01)) for i in (2, 0, 1)] == [2, 0, 1]
     assert detector.detect(IMAGE, 11.0) == ()
-
-
-def test_replay_of_nothing_gives_nobody() -> None:
-    assert ReplayDetector(frames=[]).detect(IMAGE, 0.0) == ()
 
 
 def test_replay_of_a_folder_gives_its_files(tmp_path: Path) -> None:

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from openpose_writer import format_frame, frame_path, write_frame
+from openpose_writer import format_frame
 
-from teo_skeleton_retriever.detectors.openpose.openpose_files import OpenPoseFrame, parse_frame, read_frame
+from teo_skeleton_retriever.detectors.openpose_files import parse_frame, read_frame
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
@@ -52,9 +52,9 @@ def code_of(content: bytes | str) -> str:
 
 def test_reads_what_openpose_writes() -> None:
     frame = parse_frame(WRITTEN_BY_OPENPOSE)
-    assert len(frame.people) == 1
-    assert frame.people[0].body[0].tolist() == [582.349, 507.866, 0.845918]
-    assert len(frame.people[0].face) == len(frame.people[0].left_hand) == 0
+    assert len(frame) == 1
+    assert frame[0].body[0].tolist() == [582.349, 507.866, 0.845918]
+    assert len(frame[0].face) == len(frame[0].left_hand) == 0
 
 
 @pytest.mark.parametrize(
@@ -73,42 +73,29 @@ def test_reads_every_version_by_its_own_names(version: float, body: str, hand: s
     if hand:
         entry[hand] = [3, 4, 0.5] * 21
     frame = parse_frame(json.dumps({"version": version, "people": [entry, entry]}))
-    assert len(frame.people) == 2
-    assert frame.people[1].body.shape == (18, 3)
-    assert len(frame.people[1].left_hand) == (21 if hand else 0)
-
-
-def test_no_people_is_a_frame_without_people() -> None:
-    assert parse_frame('{"version":1.3,"people":[]}').people == ()
+    assert len(frame) == 2
+    assert frame[1].body.shape == (18, 3)
+    assert len(frame[1].left_hand) == (21 if hand else 0)
 
 
 def test_a_byte_order_mark_and_line_ends_of_windows_are_read() -> None:
     content = WRITTEN_BY_OPENPOSE.replace("\n", "\r\n").encode("utf-8-sig")
-    assert len(parse_frame(content).people) == 1
+    assert len(parse_frame(content)) == 1
 
 
 def test_what_is_not_used_does_not_matter() -> None:
-    assert parse_frame('{"version":1.1,"people":[],"part_candidates":[{"0":[1,2,0.5]}]}').people == ()
-    assert len(parse_frame(person(person_id=[7], pose_keypoints_3d=[1, 2, 3, 1] * 25)).people) == 1
+    assert parse_frame('{"version":1.1,"people":[],"part_candidates":[{"0":[1,2,0.5]}]}') == ()
+    assert len(parse_frame(person(person_id=[7], pose_keypoints_3d=[1, 2, 3, 1] * 25))) == 1
 
 
 @given(st.lists(people, max_size=4))
 @settings(max_examples=30, deadline=None)
 def test_what_is_written_is_read_back(written: list[Person2D]) -> None:
-    read = parse_frame(format_frame(OpenPoseFrame(tuple(written))))
-    assert len(read.people) == len(written)
-    for before, after in zip(written, read.people, strict=True):
+    read = parse_frame(format_frame(tuple(written)))
+    assert len(read) == len(written)
+    for before, after in zip(written, read, strict=True):
         for part in ("body", "left_hand", "right_hand", "face"):
             np.testing.assert_array_equal(getattr(after, part), getattr(before, part))
-
-
-def test_keys_are_written_in_openposes_order_and_numbers_briefly() -> None:
-    frame = OpenPoseFrame((Person2D(body=np.tile([582.34912, 0.0, 0.8459181], (25, 1))),))
-    text = format_frame(frame)
-    assert text.startswith(
-        '{"version":1.3,"people":[{"person_id":[-1],"pose_keypoints_2d":[582.349,0,0.845918,582.349'
-    )
-    assert list(json.loads(text)["people"][0]) == list(json.loads(WRITTEN_BY_OPENPOSE)["people"][0])
 
 
 @given(st.integers(0, len(WRITTEN_BY_OPENPOSE) - 1))
@@ -153,28 +140,3 @@ def test_errors_name_the_file_and_the_place(tmp_path: Path) -> None:
     path.write_text(person(face_keypoints_2d=[1, 2]))
     with pytest.raises(RetrieverError, match=r"7_keypoints\.json: people\[0\]\.face_keypoints_2d"):
         read_frame(path)
-
-
-def test_a_missing_file_is_said_to_be_unreadable(tmp_path: Path) -> None:
-    with pytest.raises(RetrieverError) as caught:
-        read_frame(tmp_path / "none.json")
-    assert caught.value.code == "unreadable"
-
-
-def test_a_folder_holds_whole_files_only(tmp_path: Path) -> None:
-    path = frame_path(tmp_path, "clip_000000000012")
-    write_frame(path, OpenPoseFrame((Person2D(),)))
-    write_frame(path, OpenPoseFrame((Person2D(), Person2D())))
-    assert [file.name for file in tmp_path.iterdir()] == ["clip_000000000012_keypoints.json"]
-    assert len(read_frame(path).people) == 2
-
-
-def test_a_person_of_another_shape_cannot_be_made() -> None:
-    with pytest.raises(RetrieverError) as caught:
-        Person2D(body=np.zeros((17, 3)))
-    assert caught.value.code == "wrong_shape"
-
-
-def test_the_arrays_of_a_person_cannot_be_written_to() -> None:
-    with pytest.raises(ValueError, match="read-only"):
-        Person2D(body=np.zeros((25, 3))).body[0] = 1.0
