@@ -26,9 +26,9 @@ from teo_sign_capture.entries.bag_capture import CaptureJob, Settings, capture_b
 from teo_sign_capture.entries.gates import objections
 from teo_sign_capture.entries.sign_entry import Origin, make_sign
 from teo_sign_capture.entries.take import capture_take
+from teo_sign_capture.recordings.recording import lifted_track
 from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 from teo_signs.errors import LutError
-from teo_skeleton_retriever.lifting.lifted_person import lift_clip
 
 _QUALITY = (
     ("place_error_p95_mm", "mm"),
@@ -85,7 +85,7 @@ def _performed(robot: Robot, draw: Draw, most: int) -> Iterator[_Clip]:
         begins = time.perf_counter()
         quality: Mapping[str, float] = {}
         try:
-            take = capture_take(robot, lift_clip(clip))
+            take = capture_take(robot, lifted_track(clip))
             made = make_sign(robot, one.score.gloss, [take], origin, accept=True)
             quality, refused = made.sign.quality, [verdict.code for verdict in objections(made.verdicts)]
         except LutError as error:

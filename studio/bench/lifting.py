@@ -15,9 +15,9 @@ import numpy as np
 from report import Figure, spread
 from signs.performed import pictured, script_track
 from teo_common.arrays import Array
+from teo_sign_capture.recordings.recording import lifted_track
 from teo_sign_capture.tracks.skeleton_track import ELBOW, SHOULDER, WRIST, SkeletonTrack
 from teo_skeleton_retriever.lifting.hand_axes import palm_axes
-from teo_skeleton_retriever.lifting.lifted_person import lift_clip
 
 SCRIPTS = ("signing", "face", "crossing", "spelling")
 BODIES = ("woman_average", "man_average", "man_tall")
@@ -35,7 +35,7 @@ def measure(bodies: int = len(BODIES)) -> list[Figure]:
         ("from afar, no depth in the hands", math.inf, False),
     ):
         found = [
-            _errors(track, lift_clip(pictured(track, distance=distance, depth=depth))) for track in tracks
+            _errors(track, lifted_track(pictured(track, distance=distance, depth=depth))) for track in tracks
         ]
         elbows, wrists, sized, palms = (np.concatenate(errors) for errors in zip(*found, strict=True))
         figures += [

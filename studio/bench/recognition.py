@@ -30,7 +30,7 @@ from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 from teo_sign_authoring.notation.performance import performance
 from teo_sign_authoring.notation.score_schema import Score
 from teo_sign_capture.recognition import MOMENTS, SignIndex, recording_appearance, sign_appearance
-from teo_sign_capture.recordings.recording import open_recording
+from teo_sign_capture.recordings.recording import lifted_track, open_recording, track_of
 from teo_sign_capture.retarget.arm_kinematics import mirrored
 from teo_sign_capture.retarget.robot_motion import free_motion
 from teo_sign_capture.tracks.segmentation import the_sign
@@ -41,8 +41,6 @@ from teo_signs.errors import LutError
 from teo_signs.likeness import nearest_pairs
 from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign import Sign
-from teo_skeleton_retriever.depth.filtered_keypoints import points_of
-from teo_skeleton_retriever.lifting.lifted_person import lift_clip
 from teo_synthetic_signer import Take, TakeOptions
 from teo_synthetic_signer.body.body_shapes import BODIES
 from teo_synthetic_signer.errors import SyntheticError
@@ -174,7 +172,7 @@ def _takes(robot: Robot, draw: Draw, films: int) -> list[_Take]:
         for number, one in enumerate(performed(draw._replace(bodies=bodies))):
             clip = pictured(one.track, distance=draw.distance, seed=draw.seed + turn)
             found += _taken(robot, one.score.gloss, one.body, EXACT, one.track)
-            found += _taken(robot, one.score.gloss, one.body, LIFTED, lift_clip(clip))
+            found += _taken(robot, one.score.gloss, one.body, LIFTED, lifted_track(clip))
             if turn == 0 and number < films:
                 found += _filmed(robot, one.score, one.body, draw.distance)
     return found
@@ -201,7 +199,7 @@ def _filmed(robot: Robot, score: Score, body: str, distance: float) -> Iterator[
             take = Take(options)
             for _ in write_film((take.frame(index) for index in range(len(take))), film):
                 pass
-            track = lift_clip(points_of(open_recording(film), cache=folder))
+            track = track_of(open_recording(film), cache=folder)[0]
         except (LutError, SyntheticError) as error:
             print(f"left out: {score.gloss} by {body}, {FILMED}: {error}")
             return

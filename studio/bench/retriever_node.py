@@ -17,12 +17,10 @@ from teo_sign_msgs.msg import SkeletonArray
 
 from nodes.bench_node import BenchNode, bench_graph, cpu_seconds, seconds
 from report import Figure, percentiles
-from teo_skeleton_retriever.bags.bag_images import BagImages
+from teo_skeleton_retriever.bags.bag_images import BagImages, choose_topics
 from teo_skeleton_retriever.bags.bag_reader import Bag
-from teo_skeleton_retriever.bags.bag_images import choose_topics
 from teo_skeleton_retriever.camera.camera_model import CameraModel
-from teo_skeleton_retriever.camera.rgbd_image import CAMERA_INFO_TOPIC, COLOR_TOPIC, DEPTH_TOPIC
-from teo_skeleton_retriever.camera.rgbd_image import RgbdImage
+from teo_skeleton_retriever.camera.rgbd_image import CAMERA_INFO_TOPIC, COLOR_TOPIC, DEPTH_TOPIC, RgbdImage
 from teo_skeleton_retriever.detectors import make_detector
 
 TAKE = Path(__file__).parents[2] / "bags" / "signer_d435"

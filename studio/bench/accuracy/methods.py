@@ -11,9 +11,8 @@ import numpy as np
 
 from accuracy.takes import TakeFrame
 from teo_skeleton_retriever.arrays import DepthArray, FloatArray
-from teo_skeleton_retriever.compat.original_skeleton import OriginalParameters
 from teo_skeleton_retriever.compat.original_retriever import OriginalRetriever
-from teo_skeleton_retriever.compat.original_skeleton import FROM_BODY_25, SKELETON_STD
+from teo_skeleton_retriever.compat.original_skeleton import FROM_BODY_25, SKELETON_STD, OriginalParameters
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D, as_body_25
 from teo_skeleton_retriever.retriever import DetectionFrame, Retriever, RetrieverParameters, Skeleton

@@ -165,5 +165,4 @@ def pictured(
         left_hand=part(track.left_hand.positions, guessed=depth),
         right_hand=part(track.right_hand.positions, guessed=depth),
         source=track.source,
-        layout="made of the truth",
     )

@@ -155,8 +155,8 @@ def _colour_images(
         Time from the beginning of the stroke [s] and image, in order; nothing where the bag has no images.
     """
     # Only who draws needs the code that reads cameras' images.
-    from teo_skeleton_retriever.bags.bag_reader import Bag
     from teo_skeleton_retriever.bags.bag_images import choose_topics
+    from teo_skeleton_retriever.bags.bag_reader import Bag
     from teo_skeleton_retriever.camera.rgbd_image import color_of, stamp_of
     from teo_skeleton_retriever.errors import RetrieverError
 
