@@ -20,8 +20,8 @@ from teo_common.arrays import Array
 from teo_sign_authoring.notation.performance import performance
 from teo_sign_authoring.notation.score_file import default_scores_directory, read_scores
 from teo_sign_authoring.notation.score_schema import Score
-from teo_sign_capture.recordings.pose_file import Points, PoseClip
 from teo_sign_capture.tracks.skeleton_track import Keypoints, SkeletonTrack, in_body_axes
+from teo_skeleton_retriever.lifting.clip import Points, PoseClip
 from teo_synthetic_signer.body.body_shapes import BODIES
 from teo_synthetic_signer.body.signer import Signer
 from teo_synthetic_signer.errors import SyntheticError

@@ -21,11 +21,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_common.arrays import Array
-from teo_sign_capture.signing_space import PALM
-from teo_sign_capture.tracks.skeleton_track import WRIST
 from teo_sign_languages import Language
 from teo_signs.errors import LutError
-from teo_skeleton_retriever.lifting.hand_axes import INDEX, KNUCKLES, palm_axes
+from teo_skeleton_retriever.lifting.hand_axes import INDEX, KNUCKLES, PALM, WRIST, palm_axes
 
 PACKAGE = "spoken-to-signed"
 LICENCE = "MIT"
