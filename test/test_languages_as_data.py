@@ -46,7 +46,7 @@ ENGLISH = (
     "teo_synthetic_signer",
 )
 # English too, though those packages do not say them.
-ALSO_ENGLISH = {"animal", "chat", "clip", "final", "formal", "media"}
+ALSO_ENGLISH = {"animal", "chat", "clip", "final", "formal", "general", "media"}
 
 
 @cache

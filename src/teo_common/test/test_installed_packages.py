@@ -7,7 +7,6 @@ from __future__ import annotations
 import subprocess
 import sys
 from importlib.metadata import entry_points
-from importlib.util import find_spec
 from pathlib import Path
 
 from ament_index_python.packages import get_package_prefix
@@ -35,9 +34,7 @@ def test_every_command_of_the_studio_is_offered_under_the_name_of_a_package_that
             assert (Path(get_package_prefix(package)) / "lib" / package / name).is_file()
             (point,) = entry_points(group="teo.commands", name=name)
             assert FOLDERS[point.module.partition(".")[0]].parent.name == "studio"
-            spec = find_spec(point.module)
-            assert spec is not None and spec.origin is not None
-            assert f"def {point.attr}(" in Path(spec.origin).read_text("utf-8")
+            assert callable(point.load())
 
 
 def test_a_command_of_the_studio_runs() -> None:

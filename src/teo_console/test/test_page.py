@@ -332,7 +332,7 @@ def test_what_did_not_come_while_the_node_was_gone_is_asked_for_again(new_page: 
         lost.append(route)
         route.abort("connectionrefused") if len(lost) == 1 else route.continue_()
 
-    page.route("**/robot_view.js", lose_the_first)
+    page.route("**/robot_view.js*", lose_the_first)
     page.reload()
     expect(page.locator(".stage canvas")).to_be_visible()
     assert len(lost) == 2

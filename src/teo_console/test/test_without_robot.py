@@ -283,8 +283,8 @@ TELLING = (
 # With these a node does not start or does not take a parameter, or only its log tells them.
 NOT_TOLD = {
     "bad_address", "bad_factor", "bad_hand", "bad_limits", "bad_period", "bad_policy", "bad_rest",
-    "bad_robot", "bad_standing", "bad_style", "empty_speech", "invalid_model", "model_not_installed",
-    "mujoco_missing", "no_boards", "port_taken", "unknown_model", "unknown_plant",
+    "bad_robot", "bad_standing", "bad_style", "empty_speech", "model_not_installed",
+    "mujoco_missing", "no_boards", "port_taken", "unknown_plant",
 }  # fmt: skip
 
 

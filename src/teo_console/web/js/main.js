@@ -11,13 +11,7 @@ import { RECONNECT, Socket } from "./socket.js";
 import { refusalText, statusOf } from "./status.js";
 
 // Each tab is a module with `mount(element, context)`, which returns what is to be done when it is left.
-const TABS = {
-  watch: () => import("./tabs/watch.js"),
-  dictionary: () => import("./tabs/dictionary.js"),
-  teach: () => import("./tabs/teach.js"),
-  review: () => import("./tabs/review.js"),
-  practise: () => import("./tabs/practise.js"),
-};
+const TABS = ["watch", "dictionary", "teach", "review", "practise"];
 const NOTICE_TIME = 6000; // [ms], long enough to read two lines
 
 const element = (id) => document.getElementById(id);
@@ -63,15 +57,16 @@ const context = {
   /** Places the robot in an element: see robot_view.js, which is loaded when it is first wanted, and after the words. */
   robotView: async (place, options) => {
     await painted;
-    return (await loaded(() => import("./robot_view.js"))).robotView(place, { socket, live, t, ...options });
+    return (await loaded("./robot_view.js")).robotView(place, { socket, live, t, ...options });
   },
 };
 
 /** A module of the page, as soon as it can be had: the node that serves it may just be gone. */
-async function loaded(load) {
-  for (;;) {
+async function loaded(path) {
+  for (let attempt = 0; ; attempt++) {
     try {
-      return await load();
+      // A browser may remember what it could not have, and not ask for it again under the same name.
+      return await import(attempt ? `${path}?${attempt}` : path);
     } catch (error) {
       if (!(error instanceof TypeError)) throw error; // not the way to it is wrong, but the module
     }
@@ -81,14 +76,14 @@ async function loaded(load) {
 
 function tabNow() {
   const name = location.hash.slice(1).split("/")[0];
-  return name in TABS ? name : "watch";
+  return TABS.includes(name) ? name : "watch";
 }
 
 let mounting = 0;
 async function show() {
   const name = tabNow();
   const turn = ++mounting;
-  const { mount } = await loaded(TABS[name]);
+  const { mount } = await loaded(`./tabs/${name}.js`);
   if (turn !== mounting) return; // another tab was chosen meanwhile
   leave();
   leave = () => {};
@@ -97,7 +92,7 @@ async function show() {
   const page = h("div");
   content.replaceChildren(page);
   content.dataset.tab = name;
-  const items = Object.keys(TABS).map((tab) => {
+  const items = TABS.map((tab) => {
     const link = h("a", { href: `#${tab}` }, t(`tab.${tab}`));
     if (tab === name) link.setAttribute("aria-current", "page");
     return h("li", {}, link);

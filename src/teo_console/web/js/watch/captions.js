@@ -6,6 +6,8 @@ import { h } from "../dom.js";
 import { mark } from "./marks.js";
 
 const SIZES = [80, 100, 125, 150, 200]; // [%] of the page's type
+// The driver's word may set the time of a sentence back by up to this [s]: a sign that was lit stays so meanwhile.
+const SET_BACK = 1;
 
 export class Captions {
   #context;
@@ -51,11 +53,12 @@ export class Captions {
     const { sentence, elapsed } = now;
     if (sentence !== this.#shown && signature(sentence) !== signature(this.#shown)) this.#build(sentence);
     this.#shown = sentence;
-    const at = sentence.captions.findLastIndex(({ start }) => start !== null && start <= elapsed);
+    let at = sentence.captions.findLastIndex(({ start }) => start !== null && start <= elapsed);
+    if (at < this.#lit && sentence.captions[this.#lit].start - elapsed < SET_BACK) at = this.#lit;
     if (at !== this.#lit) this.#light(at);
     if (at >= 0) {
       const { start, duration } = sentence.captions[at];
-      const share = duration > 0 ? Math.min((elapsed - start) / duration, 1) : 1;
+      const share = duration > 0 ? Math.min(Math.max(elapsed - start, 0) / duration, 1) : 1;
       this.#items[at].bar.style.width = `${Math.round(share * 100)}%`;
       this.#items[at].item.classList.toggle("over", share >= 1);
     }
