@@ -41,24 +41,30 @@ TOPICS = (
     Interface(
         "sign_tokens",
         "teo_sign_msgs/SignSentence",
-        "One sentence a message, in order; the last 100 are latched",
+        "One sentence a message, in order; the last 100 are latched. The executor reads what was latched if it has a journal",
     ),
-    Interface("translation_status", "teo_sign_msgs/TranslationStatus", "What became of each text"),
+    Interface(
+        "translation_status", "teo_sign_msgs/TranslationStatus", "What became of each text; depth 5000"
+    ),
     Interface(
         "joint_trajectory",
         "trajectory_msgs/JointTrajectory",
-        "All commanded joints, to a standstill; stamped if it continues a motion",
+        "Joints of the whole robot, in any order, to a standstill. The stamp is when it begins, 0 for at once; one point stops",
     ),
     Interface(
         "LIMB/joint_trajectory",
         "trajectory_msgs/JointTrajectory",
-        "`head`, `trunk`, `left_arm`, … alone; the newest command wins",
+        "The same for `head`, `trunk`, `left_arm`, `right_arm`, `left_hand` or `right_hand`; the newest command wins",
         "*/joint_trajectory",
     ),
     Interface(
         "executor_status", "teo_sign_msgs/ExecutorStatus", "State, reason, timing of every token; latched"
     ),
-    Interface("joint_states", "sensor_msgs/JointState", "Positions [rad] and velocities [rad/s], 100 Hz"),
+    Interface(
+        "joint_states",
+        "sensor_msgs/JointState",
+        "Positions [rad] and velocities [rad/s] of all joints, 100 Hz; heard best effort",
+    ),
     Interface("driver_state", "teo_sign_msgs/DriverState", "Mode and why; who commands; latched"),
     Interface(
         "speed_scaling_input",
@@ -74,20 +80,30 @@ TOPICS = (
     Interface(
         "dextra_setpoints",
         "std_msgs/Float64MultiArray",
-        "What TEO's real hands would receive [mm], [deg]; latched",
+        "What TEO's real hands would receive, left then right: abductor [deg], thumb and fingers [mm of tendon]; latched",
     ),
-    Interface("camera/color/image_raw", "sensor_msgs/Image", "Colour; also `/compressed`", "camera/*"),
     Interface(
-        "camera/aligned_depth_to_color/image_raw",
+        "camera/color/image_raw",
         "sensor_msgs/Image",
-        "Depth, aligned to colour; also `/compressedDepth`",
+        "RGB, BGR, grey or YUV 4:2:2; also `/compressed` (JPEG, PNG)",
         "camera/*",
     ),
     Interface(
-        "camera/color/camera_info", "sensor_msgs/CameraInfo", "Calibration of the colour camera", "camera/*"
+        "camera/aligned_depth_to_color/image_raw",
+        "sensor_msgs/Image",
+        "Depth of each colour pixel: `16UC1`, `mono16` [mm], `32FC1` [m]; also `/compressedDepth` (PNG, RVL)",
+        "camera/*",
     ),
     Interface(
-        "skeletons", "teo_sign_msgs/SkeletonArray", "Everybody in an image: body, hands and face in space"
+        "camera/color/camera_info",
+        "sensor_msgs/CameraInfo",
+        "Calibration of the colour camera: `plumb_bob` or `rational_polynomial`",
+        "camera/*",
+    ),
+    Interface(
+        "skeletons",
+        "teo_sign_msgs/SkeletonArray",
+        "Everybody in an image: body, hands and face in space; empty if nobody is there",
     ),
     Interface(
         "skeleton_markers", "visualization_msgs/MarkerArray", "The same for viewers, while somebody listens"
@@ -98,30 +114,40 @@ TOPICS = (
 )
 SERVICES = (
     Interface("translate", "teo_sign_msgs/Translate", "Translate a text without publishing it"),
-    Interface("list_signs", "teo_sign_msgs/ListSigns", "Glosses of the table"),
+    Interface(
+        "list_signs", "teo_sign_msgs/ListSigns", "Glosses of the table; the translator asks every two seconds"
+    ),
     Interface("get_sign", "teo_sign_msgs/GetSign", "Knots and file of one sign"),
     Interface("list_queue", "teo_sign_msgs/ListQueue", "Sentences not yet signed to the end"),
     Interface("clear_queue", "std_srvs/Trigger", "Forget the sentences that wait"),
     Interface("stop", "std_srvs/Trigger", "Slow down on the path, hold, and refuse motions until `rearm`"),
-    Interface("rearm", "std_srvs/Trigger", "Accept motions again after `stop` or a fault"),
+    Interface(
+        "rearm",
+        "std_srvs/Trigger",
+        "Accept motions again after `stop` or a fault; answers `moving: ...` until the robot is at rest",
+    ),
     Interface("pause", "std_srvs/Trigger", "Stand still on the path"),
     Interface("resume", "std_srvs/Trigger", "Continue after `pause`"),
     Interface(
         "query_state", "control_msgs/QueryTrajectoryState", "Where the joints are to be at a given time"
     ),
-    Interface("lock_signer", "teo_sign_msgs/LockSigner", "Follow one person as the signer"),
+    Interface(
+        "lock_signer",
+        "teo_sign_msgs/LockSigner",
+        "Follow one person as the signer; -1: choose by the rule again",
+    ),
     Interface("capture_sign", "teo_sign_msgs/CaptureSign", "Record a sign of the signer and save it"),
 )
 ACTIONS = (
     Interface(
         "execute_sentence",
         "teo_sign_msgs/ExecuteSentence",
-        "Sign one sentence, in the same queue",
+        "Sign one sentence, in the same queue; feedback at 10 Hz",
     ),
     Interface(
         "follow_joint_trajectory",
         "control_msgs/FollowJointTrajectory",
-        "As joint_trajectory_controller; called if `trajectory_interface` is `action`",
+        "As joint_trajectory_controller's, with tolerances; called if `trajectory_interface` is `action`",
     ),
     Interface(
         "LIMB/follow_joint_trajectory",
@@ -137,7 +163,8 @@ _HEAD = """\
 
 All names are relative: remap them, or put a node into a namespace. Lifecycle transitions, parameter services
 and `use_sim_time` are as in every ROS 2 node. The message files of `src/teo_sign_msgs` explain the project's
-own types.
+own types. Publishers are reliable with a depth of 10, latched ones transient local with a depth of 1, where nothing else
+is said; cameras are heard best effort with a depth of 5.
 """
 _PARAMETERS = f"""\
 ## Parameters

@@ -19,15 +19,15 @@ GENUINE = _PACKAGE / "test" / "golden" / "genuine_words.yaml"
 _HEAD = """\
 # The words of `ros2`
 
-Every command, verb and option of ros2cli 0.32 and rosbag2 0.26 (ROS 2 Jazzy), and whether this package's
-`ros2` has it. `scripts/ros2_words.py` makes this page from the genuine command's words
+Which verbs and options of ros2cli 0.32 and rosbag2 0.26 (ROS 2 Jazzy) this package's `ros2` has; `--help`
+explains them. `scripts/ros2_words.py` makes this page from the genuine command's words
 ([genuine_words.yaml](test/golden/genuine_words.yaml)) and from this one's own parsers; a test compares them.
-Every verb has `-h` besides. `--no-daemon` is accepted: there is no daemon. A verb or an option that is not
-there is refused with the usage and status 2.
+`--no-daemon` is accepted: there is no daemon. A verb or an option that is missing is refused with the usage
+and status 2.
 
-| command | there | options: yes | options: no | only here |
-|---|---|---|---|---|
 """
+# Every verb that looks at the graph takes these; some genuine ones do not.
+_ACCEPTED = ("--spin-time", "--use-sim-time", "--no-daemon")
 # Why a verb is not there, by command and verb; verb "" is for all of a command.
 _ABSENT = {
     ("bag", "burst"): "`play --start-paused` and the key for the next message do it",
@@ -47,24 +47,27 @@ def words_table() -> str:
     wanted = {
         (command, verb): options for command, verbs in genuine.items() for verb, options in verbs.items()
     }
-    rows = []
-    for words in sorted({*wanted, *own}):
-        theirs, ours = wanted.get(words, []), own.get(words)
-        cells = [
-            f"`ros2 {' '.join(filter(None, words))}`",
-            _there(words, ours is not None, words in wanted),
-            _list(option for option in theirs if ours is not None and option in ours),
-            _list(option for option in theirs if ours is None or option not in ours),
-            _list(option for option in ours or () if option not in theirs),
-        ]
-        rows.append(f"| {' | '.join(cells)} |\n")
-    return _HEAD + "".join(rows)
-
-
-def _there(words: tuple[str, str], ours: bool, theirs: bool) -> str:
-    if ours:
-        return "yes" if theirs else "only here"
-    return f"no: {_ABSENT.get(words) or _ABSENT[words[0], '']}"
+    assert own.keys() <= wanted.keys(), "a verb that the genuine command lacks"
+    rows: dict[str, list[str]] = {"same": [], "other": [], "absent": []}
+    for words, theirs in sorted(wanted.items()):
+        name = f"`{' '.join(filter(None, words))}`"
+        if words not in own:
+            why = _ABSENT.get(words)
+            row = f"| {name} | {why} |\n" if why else f"| `{words[0]}` | {_ABSENT[words[0], '']} |\n"
+            if row not in rows["absent"]:
+                rows["absent"].append(row)
+            continue
+        missing = [option for option in theirs if option not in own[words]]
+        added = [option for option in own[words] if option not in theirs and option not in _ACCEPTED]
+        if missing or added:
+            rows["other"].append(f"| {name} | {_list(missing)} | {_list(added)} |\n")
+        else:
+            rows["same"].append(name)
+    return (
+        f"{_HEAD}With every option: {', '.join(rows['same'])}.\n\n"
+        f"| with other options | missing | only here |\n|---|---|---|\n{''.join(rows['other'])}\n"
+        f"| missing | why |\n|---|---|\n{''.join(rows['absent'])}"
+    )
 
 
 def _own(
@@ -82,7 +85,7 @@ def _own(
         yield (before or name, name if before else ""), longest
 
 
-def _list(options: Iterator[str]) -> str:
+def _list(options: list[str]) -> str:
     return " ".join(f"`{option}`" for option in options)
 
 
