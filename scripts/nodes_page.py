@@ -41,7 +41,7 @@ TOPICS = (
     Interface(
         "sign_tokens",
         "teo_sign_msgs/SignSentence",
-        "One sentence a message, in order; the last 100 are latched. The executor reads what was latched if it has a journal",
+        "One sentence a message, in order; the last 100 are latched, for executors with a journal",
     ),
     Interface(
         "translation_status", "teo_sign_msgs/TranslationStatus", "What became of each text; depth 5000"
@@ -49,12 +49,14 @@ TOPICS = (
     Interface(
         "joint_trajectory",
         "trajectory_msgs/JointTrajectory",
-        "Joints of the whole robot, in any order, to a standstill. The stamp is when it begins, 0 for at once; one point stops",
+        "Joints of the whole robot, in any order, to a standstill. The stamp is when it begins, "
+        "0 for at once; one point stops",
     ),
     Interface(
         "LIMB/joint_trajectory",
         "trajectory_msgs/JointTrajectory",
-        "The same for `head`, `trunk`, `left_arm`, `right_arm`, `left_hand` or `right_hand`; the newest command wins",
+        "The same for `head`, `trunk`, `left_arm`, `right_arm`, `left_hand` or `right_hand`; "
+        "the newest command wins",
         "*/joint_trajectory",
     ),
     Interface(
@@ -80,7 +82,8 @@ TOPICS = (
     Interface(
         "dextra_setpoints",
         "std_msgs/Float64MultiArray",
-        "What TEO's real hands would receive, left then right: abductor [deg], thumb and fingers [mm of tendon]; latched",
+        "What TEO's real hands would receive, left then right: abductor [deg], thumb and fingers "
+        "[mm of tendon]; latched",
     ),
     Interface(
         "camera/color/image_raw",
@@ -163,8 +166,8 @@ _HEAD = """\
 
 All names are relative: remap them, or put a node into a namespace. Lifecycle transitions, parameter services
 and `use_sim_time` are as in every ROS 2 node. The message files of `src/teo_sign_msgs` explain the project's
-own types. Publishers are reliable with a depth of 10, latched ones transient local with a depth of 1, where nothing else
-is said; cameras are heard best effort with a depth of 5.
+own types. Where nothing else is said, publishers are reliable with a depth of 10, latched ones transient local
+with a depth of 1. Cameras are heard best effort with a depth of 5.
 """
 _PARAMETERS = f"""\
 ## Parameters
