@@ -166,8 +166,8 @@ _HEAD = """\
 
 All names are relative: remap them, or put a node into a namespace. Lifecycle transitions, parameter services
 and `use_sim_time` are as in every ROS 2 node. The message files of `src/teo_sign_msgs` explain the project's
-own types. Where nothing else is said, publishers are reliable with a depth of 10, latched ones transient local
-with a depth of 1. Cameras are heard best effort with a depth of 5.
+own types. Where nothing else is said, publishers are reliable with a depth of 10, latched ones transient
+local with a depth of 1. Cameras are heard best effort with a depth of 5.
 """
 _PARAMETERS = f"""\
 ## Parameters
