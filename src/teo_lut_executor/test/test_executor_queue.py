@@ -279,3 +279,41 @@ def test_the_next_sentence_waits_for_a_robot_that_is_late_to_stand_still(world: 
     starts = [event.start for event in world.events if isinstance(event, PlanWanted)]
     np.testing.assert_array_equal(starts[1].velocity, 0.0)
     np.testing.assert_allclose(starts[1].position, REST, atol=1e-3)
+
+
+def test_a_refused_sentence_does_not_hold_up_the_next(world: World) -> None:
+    bad, good = world.sign("Ω"), world.sign("TÚ")
+    world.run_until(lambda: len(world.finished()) == 2)
+    assert world.finished() == [(bad, Outcome.REFUSED), (good, Outcome.SUCCESS)]
+    refused = next(status for status in world.statuses() if status.activity == Activity.REFUSED)
+    assert refused.code == "unknown_sign" and "Ω" in refused.message
+    assert refused.sentence is not None and refused.sentence.tokens[0].gloss == "Ω"
+
+
+def test_a_sentence_waits_while_the_driver_is_silent_and_the_silence_is_told(world: World) -> None:
+    world.run(0.1)
+    world.publishes_states = False
+    world.run(1.0)
+    ticket = world.sign("TÚ")
+    world.run(1.0)
+    assert world.finished() == [] and world.sent == []
+    assert (world.statuses()[-1].activity, world.statuses()[-1].code) == (
+        Activity.FAULT,
+        "stale_joint_states",
+    )
+    world.publishes_states = True
+    world.run_until(lambda: bool(world.finished()))
+    assert world.finished() == [(ticket, Outcome.SUCCESS)]
+
+
+def test_planning_that_takes_long_costs_no_sentence(world: World) -> None:
+    world.run(0.1)
+    world.planning_time = 2.0
+    tickets = [world.sign(text) for text in ("TÚ", "A", "N")]
+    world.run_until(lambda: len(world.finished()) == 3)
+    assert world.finished() == [(ticket, Outcome.SUCCESS) for ticket in tickets]
+    assert {status.activity for status in world.statuses()} <= {
+        Activity.IDLE,
+        Activity.WAITING,
+        Activity.SIGNING,
+    }

@@ -401,3 +401,14 @@ def test_a_driver_that_takes_no_way_to_rest_is_told_so_and_left_alone(world: Wor
     assert world.finished() == [(ticket, Outcome.CANCELED)]
     assert any(status.code == "trajectory_refused" for status in world.statuses())
     assert world.refused <= 6
+
+
+def test_a_robot_that_was_stopped_goes_to_rest_when_it_is_rearmed(world: World) -> None:
+    world.sign("A-N-A")
+    world.run(3.0)
+    world._motions, world.velocities = [], np.zeros(REST.size)
+    world.driver_says(DriverMode.STOPPED)
+    world.run(1.0)
+    world.driver_says(DriverMode.HOLDING)
+    world.run_until(lambda: world.activities()[-1] == Activity.IDLE)
+    np.testing.assert_allclose(world.positions, REST, atol=0.02)

@@ -167,3 +167,35 @@ def test_random_commands_of_limbs_and_body_break_no_limit_and_never_step(robot, 
     moved = np.diff(positions, axis=0) / 0.01
     assert np.abs(moved - 0.5 * (velocities[1:] + velocities[:-1])).max() < 0.02
     assert robot.follower.report().limited_steps == 0
+
+
+def test_the_whole_body_takes_over_from_limbs(robot):
+    left, right = robot.send("left_arm", LEFT, -0.5), robot.send("right_arm", RIGHT, -0.5)
+    robot.run(1.0)
+    whole = robot.send("", RIGHT, 0.0)
+    assert left.preempted_by is whole
+    assert right.preempted_by is whole
+    robot.run(3.5)
+    assert robot.at(LEFT) == robot.home[column(LEFT)]
+
+
+def test_until_a_scheduled_limb_starts_all_goes_on(robot):
+    robot.send("", RIGHT, -0.5)
+    robot.run(0.5)
+    robot.send("left_arm", LEFT, -0.5, stamp=robot.now + SECOND)
+    positions = robot.run(1.0)
+    assert (np.diff(positions[:, column(RIGHT)]) < 0.0).all()
+    assert np.abs(positions[:, column(LEFT)] - robot.home[column(LEFT)]).max() < 1e-12
+    robot.run(4.0)
+    assert robot.at(LEFT) == robot.home[column(LEFT)] - 0.5
+    assert robot.at(RIGHT) > robot.home[column(RIGHT)] - 0.5
+
+
+def test_stop_stops_every_limb(robot):
+    left, right = robot.send("left_arm", LEFT, -0.5), robot.send("right_arm", RIGHT, -0.5)
+    robot.run(1.0)
+    remaining = robot.follower.block(Mode.STOPPED, "stopped", robot.now)
+    robot.run(remaining + 0.02)
+    assert left.over
+    assert right.over
+    assert not robot.states[-1].velocities.any()

@@ -4,6 +4,7 @@ import signal
 import subprocess
 import sys
 import time
+from array import array
 
 import numpy as np
 import pytest
@@ -21,7 +22,7 @@ from sensor_msgs.msg import JointState
 from simulated_clock import SECOND, SimulatedClock
 from std_msgs.msg import Float64MultiArray, String
 from teo_sign_msgs.msg import DriverState
-from trajectory_msgs.msg import JointTrajectory
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from teo_names import ALL_JOINTS, HOME, LEG_JOINTS, urdf_text
 from teo_sim_driver.node.driver_node import DriverNode
@@ -330,3 +331,42 @@ def test_every_number_among_the_parameters_has_a_range():
         assert row.description.endswith(".")
         numbers = row.low is not None and row.high is not None and row.low <= row.default <= row.high
         assert isinstance(row.default, bool | str) or numbers, row.name
+
+
+def sum_refused(bench):
+    return sum(bench.driver._follower.report().refused.values())
+
+
+def test_states_that_are_lost_or_late_are_seen_so(bench, one_way):
+    def inject(name, value):
+        assert bench.driver.set_parameters([Parameter(name, value=value)])[0].successful
+
+    inject("fault_state_delay", 0.5)
+    del bench.states[:]
+    bench.until(lambda: len(bench.states) > 3)
+    now = bench.driver.get_clock().now().nanoseconds
+    stamp = bench.states[-1].header.stamp
+    assert now - (stamp.sec * 10**9 + stamp.nanosec) > 0.45e9
+    inject("fault_state_loss", 1.0)
+    bench.commands.publish(one_way())
+    bench.until(lambda: bench.driver_states[-1].path_time > 1.0)  # it moves, and nobody hears of it
+    assert len(bench.states) < 100
+    inject("fault_state_loss", 0.0)
+    inject("fault_state_delay", 0.0)
+
+
+def test_garbage_is_survived(bench, one_way):
+    good = one_way(duration=2.0, angle=-0.1)
+    garbage = [JointTrajectory() for _ in range(6)]
+    garbage[1].joint_names = ["", "\x01", "ñandú"]
+    garbage[2].joint_names = list(good.joint_names)
+    garbage[3].points = [JointTrajectoryPoint() for _ in range(3)]
+    garbage[4].joint_names = list(good.joint_names)
+    garbage[4].points = [JointTrajectoryPoint(effort=array("d", [1.0] * 1000)) for _ in range(3)]
+    garbage[5].joint_names = ["AxialNeck"] * 5000
+    before = sum_refused(bench)
+    for i, message in enumerate(garbage):
+        bench.commands.publish(message)
+        bench.until(lambda i=i: sum_refused(bench) == before + i + 1)
+    bench.commands.publish(good)
+    bench.until(lambda: abs(bench.position("FrontalRightElbow") - good.points[-1].positions[13]) < 1e-9)

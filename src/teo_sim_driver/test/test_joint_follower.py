@@ -299,3 +299,21 @@ def test_drives_that_did_not_follow_hold_where_they_are(new_follower, home):
     assert (
         run(follower, START, 0.1)[1] == np.clip(home + 0.05, *(follower.limits.lower, follower.limits.upper))
     ).all()
+
+
+def test_a_scheduled_trajectory_waits_for_its_time(new_follower, swing, home):
+    follower = new_follower()
+    send(follower, swing(stamp=START + SECOND), START)
+    assert follower.mode is Mode.MOVING
+    now, positions, _ = run(follower, START, 1.0)
+    np.testing.assert_allclose(positions, np.tile(home, (100, 1)), rtol=0.0, atol=1e-12)
+    immediate = new_follower()
+    send(immediate, swing(), START)
+    np.testing.assert_allclose(run(follower, now, 4.5)[1], run(immediate, START, 4.5)[1], atol=1e-9)
+
+
+def test_stop_forgets_a_scheduled_trajectory(new_follower, swing, home):
+    follower = new_follower()
+    send(follower, swing(stamp=START + SECOND), START)
+    follower.cancel(START)
+    np.testing.assert_array_equal(run(follower, START, 3.0)[1][-1], home)
