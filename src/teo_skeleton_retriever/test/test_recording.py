@@ -143,3 +143,20 @@ def test_errors_pass_from_one_process_to_another():
     assert (type(error), error.code, error.sentence) == (TopicError, "no_depth", "expected a topic")
     assert error.argument == "depth_topic"
     assert str(pickle.loads(pickle.dumps(RetrieverError("bad_name", "other")))) == "bad_name: other"
+
+
+@pytest.mark.parametrize("form", ["ros1", "file"])
+def test_ros_1_bags_and_single_files_are_recordings_too(bag, keypoints, form, tmp_path):
+    path = bag / "take.mcap"
+    if form == "ros1":
+        path = bag_take.write_ros1(tmp_path / "take.bag", list(bag_take.messages(IMAGES)))
+    assert retrieve(path, keypoints).images == IMAGES
+
+
+def test_what_cannot_be_read_or_written_is_refused(bag, keypoints, tmp_path):
+    with pytest.raises(RetrieverError, match="missing_bag"):
+        retrieve(tmp_path / "none.mcap", keypoints)
+    with pytest.raises(RetrieverError, match="bad_name"):
+        retrieve(bag, keypoints, out=tmp_path / "x.bag")
+    with pytest.raises(RetrieverError, match="missing_folder"):
+        retrieve(bag, keypoints, out=tmp_path / "none" / "x.mcap")

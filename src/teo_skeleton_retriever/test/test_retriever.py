@@ -10,9 +10,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from capsule_person import CAMERA, ROW, Pose, frame, person_2d, pose
+from capsule_person import CAMERA, ROW, Pose, face, frame, person_2d, pose
 
 from teo_skeleton_retriever.camera.camera_model import CameraModel
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 from teo_skeleton_retriever.retriever import (
     DetectionFrame,
@@ -286,3 +287,57 @@ def test_time_that_stands_still_harms_nothing() -> None:
         found = retriever.process(replace(frame(i / RATE, signing(0.0)), stamp=1.0))
     assert error(only(found).body.points[ARMS], signing(0.0).body[ARMS]) < 0.03
     assert np.isfinite(only(found).body.sigma[ARMS]).all()
+
+
+def test_hands_are_found_without_an_imagined_shape() -> None:
+    retriever = Retriever(AT_ONCE)
+    found = follow(retriever, 1.0, lambda t: frame(t, signing(t), noise=0.003, imagined=False))
+    skeleton, truth = only(found[-1]), signing(29 / RATE)
+    assert error(skeleton.left_hand.points, truth.left_hand) < 0.02
+
+
+def test_a_face_is_measured_on_its_skin() -> None:
+    found = follow(Retriever(AT_ONCE), 0.5, lambda t: frame(t, signing(t), noise=0.003))
+    assert error(only(found[-1]).face.points, face(signing(14 / RATE))) < 0.012
+
+
+def test_the_body_frame_looks_out_of_the_chest() -> None:
+    skeleton = only(Retriever(AT_ONCE).process(frame(0.0, signing(0.0))))
+    assert skeleton.body_frame is not None
+    np.testing.assert_allclose(skeleton.body_frame.rotation @ [1, 0, 0], [0, 0, -1], atol=0.2)
+    np.testing.assert_allclose(skeleton.body_frame.rotation @ [0, 1, 0], [1, 0, 0], atol=0.1)
+
+
+def test_an_empty_scene_is_nobody() -> None:
+    assert follow(Retriever(), 0.3, lambda t: frame(t)) == [()] * 9
+
+
+def test_someone_in_a_single_image_is_nobody_unless_that_is_asked_for() -> None:
+    assert Retriever().process(frame(0.0, signing(0.0))) == ()
+    assert len(Retriever(AT_ONCE).process(frame(0.0, signing(0.0)))) == 1
+
+
+def test_who_leaves_and_returns_within_the_memory_keeps_their_id_later_they_get_a_new_one() -> None:
+    for gap, same in ((1.0, True), (5.0, False)):
+        retriever = Retriever(AT_ONCE)
+        first = only(follow(retriever, 0.3, lambda t: frame(t, signing(t)))[-1])
+        follow(retriever, gap, lambda t: replace(frame(t), people=()), start=0.3)
+        second = only(retriever.process(frame(0.3 + gap, signing(0.0))))
+        assert (first.track_id == second.track_id) is same
+
+
+def test_a_person_of_whom_nothing_is_seen_is_nobody() -> None:
+    assert Retriever(AT_ONCE).process(replace(frame(0.0, signing(0.0)), people=(Person2D(),))) == ()
+
+
+def test_depth_of_another_size_than_the_cameras_is_refused() -> None:
+    with pytest.raises(RetrieverError) as caught:
+        DetectionFrame(0.0, (), np.zeros((10, 10), np.float32), CAMERA)
+    assert caught.value.code == "wrong_size"
+
+
+@pytest.mark.parametrize("stamp", [math.nan, math.inf])
+def test_a_stamp_that_is_no_time_is_refused(stamp: float) -> None:
+    with pytest.raises(RetrieverError) as caught:
+        DetectionFrame(stamp, (), np.zeros((240, 320), np.float32), CAMERA)
+    assert caught.value.code == "bad_stamp"

@@ -188,3 +188,9 @@ def test_images_that_cannot_be_used_are_counted_with_a_reason(tmp_path):
     assert len(list(reader.images())) == 3
     assert reader.dropped == {"wrong_encoding": 1, "no_depth": 1}
     assert "odd" in reader.reasons["wrong_encoding"]
+
+
+def test_images_before_the_first_camera_info_are_used(tmp_path):
+    stored = list(bag_take.messages(5))
+    late = [one for one in stored if one[0] != bag_take.INFO] + [stored[-3]]
+    assert len(images_of(bag_take.write_ros2(tmp_path / "take", late))) == 5

@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from teo_skeleton_retriever.camera.synchroniser import NO_DEPTH, OVERTAKEN, Synchroniser
+from teo_skeleton_retriever.camera.synchroniser import NO_COLOR, NO_DEPTH, OVERTAKEN, Synchroniser
 
 MS = 1_000_000
 PERIOD = 33 * MS
@@ -110,3 +110,28 @@ def test_whatever_comes_pairs_are_near_ascend_and_no_image_is_lost_uncounted(arr
     assert len({depth for _, depth in pairs}) == len(pairs)
     colors = sum(kind == "c" for kind, _ in arrivals)
     assert len(pairs) + sync.dropped[NO_DEPTH] + sync.dropped[OVERTAKEN] == colors
+
+
+def test_equal_stamps_pair_at_once_whichever_comes_first():
+    assert fed(new(), ("c", BASE), ("d", BASE)) == [(BASE, BASE)]
+    assert fed(new(), ("d", BASE), ("c", BASE)) == [(BASE, BASE)]
+
+
+def test_an_earlier_depth_is_taken_where_the_later_is_farther():
+    assert fed(new(), ("d", BASE - 3 * MS), ("c", BASE), ("d", BASE + 30 * MS)) == [(BASE, BASE - 3 * MS)]
+
+
+def test_depth_without_colour_is_let_go():
+    sync = new(capacity=3)
+    assert fed(sync, *[("d", BASE + i * PERIOD) for i in range(10)]) == []
+    assert sync.dropped == {NO_COLOR: 7}
+
+
+def test_a_second_depth_of_the_same_stamp_changes_nothing():
+    assert fed(new(), ("d", BASE), ("d", BASE), ("c", BASE)) == [(BASE, BASE)]
+
+
+def test_colour_that_comes_out_of_order_while_it_waits_comes_out_in_order():
+    sync = new()
+    assert fed(sync, ("c", BASE + PERIOD), ("c", BASE)) == []
+    assert [s for s, _ in fed(sync, ("d", BASE), ("d", BASE + PERIOD))] == [BASE, BASE + PERIOD]
