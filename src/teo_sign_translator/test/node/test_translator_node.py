@@ -245,7 +245,7 @@ def test_what_became_of_every_text_is_told(bench: Bench) -> None:
 
 def test_of_a_flood_of_texts_none_is_lost_without_a_word(bench: Bench) -> None:
     begun, held = held_translations(bench)
-    texts = [f"Yo tengo {age} años" for age in range(250)]
+    texts = [f"Yo tengo {age} años" for age in range(2000)]
     bench.type(texts[0])
     bench.wait(begun.is_set, "the first text to be worked on")
     bench.type(*texts[1:])
