@@ -26,11 +26,11 @@ from teo_skeleton_retriever.depth.skin import HAND_DEPTHS
 from teo_skeleton_retriever.layouts.layout import HAND_21
 from teo_skeleton_retriever.layouts.person_layout import HAND_BONES
 
-N = len(HAND_21)
-CHILD = np.arange(1, N)
+_KEYPOINTS = len(HAND_21)
+CHILD = np.arange(1, _KEYPOINTS)
 # Keypoints at the ends of each of the 20 bones, finger by finger from the wrist.
-PARENT = np.array([0 if i % 4 == 1 else i - 1 for i in range(1, N)])
-_PALM = np.isin(np.arange(N), [HAND_21.index[name] for name in ("Wrist", "ThumbCMC")]) | np.array(
+PARENT = np.array([0 if i % 4 == 1 else i - 1 for i in range(1, _KEYPOINTS)])
+_PALM = np.isin(np.arange(_KEYPOINTS), [HAND_21.index[name] for name in ("Wrist", "ThumbCMC")]) | np.array(
     [name.endswith("MCP") and not name.startswith("Thumb") for name in HAND_21.keypoints]
 )
 # Bones that hold the palm together. Shape (20,)
@@ -40,8 +40,8 @@ RIGID = np.where(_PALM, 1.0, 0.3)
 _OFF_SHAPE = 0.025  # [m] farther off the shape a depth is another's: two fingers, and the shape's own error
 _ITERATIONS = 2  # more were no better on rendered people
 # Which bones lead from the wrist to each keypoint.
-_WRIST_TO = np.zeros((N, N - 1))
-for _i in range(1, N):
+_WRIST_TO = np.zeros((_KEYPOINTS, _KEYPOINTS - 1))
+for _i in range(1, _KEYPOINTS):
     _WRIST_TO[_i] = _WRIST_TO[PARENT[_i - 1]]
     _WRIST_TO[_i, _i - 1] = 1.0
 
@@ -186,9 +186,9 @@ class _Start(NamedTuple):
 
 def _start(hand: HandView, radius: FloatArray, lengths: FloatArray) -> _Start | None:
     seen = np.isfinite(hand.rays[:, 0])
-    if seen.sum() < N // 2:
+    if seen.sum() < _KEYPOINTS // 2:
         return None
-    bones, step_sigma = np.zeros((N - 1, 3)), np.full(N - 1, _FLAT_SIGMA)
+    bones, step_sigma = np.zeros((_KEYPOINTS - 1, 3)), np.full(_KEYPOINTS - 1, _FLAT_SIGMA)
     if hand.world is not None:
         bones, step_sigma = imagined_bones(hand.world, lengths), _STEP_SIGMA
     # The detector sees a crop around the hand as if the camera looked straight at it: its z runs along this.
@@ -214,14 +214,14 @@ def _solve(
     hands: list[HandView], starts: list[_Start], radius: FloatArray, length: FloatArray
 ) -> list[HandFit]:
     k = len(hands)
-    bends = np.concatenate([np.stack([h.rays for h in hands]), np.ones((k, N, 1))], axis=2)
+    bends = np.concatenate([np.stack([h.rays for h in hands]), np.ones((k, _KEYPOINTS, 1))], axis=2)
     seen = np.isfinite(bends[..., 0])
     bends = np.where(seen[..., None], bends, 0.0)
     imagined = np.stack([start.bones for start in starts])
     step_weight = 1.0 / np.stack([start.step_sigma for start in starts])
     bone_weight = np.where(seen[:, CHILD] & seen[:, PARENT], 1.0 / _BONE_SIGMA, 0.0)
-    slope = np.zeros((k, 2 * (N - 1), N))  # of the misfits of bones, then of steps
-    bone_row, step_row = CHILD - 1, CHILD + N - 2
+    slope = np.zeros((k, 2 * (_KEYPOINTS - 1), _KEYPOINTS))  # of the misfits of bones, then of steps
+    bone_row, step_row = CHILD - 1, CHILD + _KEYPOINTS - 2
     slope[:, step_row, CHILD], slope[:, step_row, PARENT] = step_weight, -step_weight
     surfaces = Surfaces(
         *(np.concatenate(arrays) for arrays in zip(*(h.surfaces for h in hands), strict=True))
@@ -230,14 +230,14 @@ def _solve(
     depths = laid(
         imagined, bends, np.stack([start.depths for start in starts]), np.stack([s.trust for s in starts])
     )
-    normal, weight = np.zeros((k, N, N)), np.zeros((k, N))
-    diagonal = np.arange(N)
+    normal, weight = np.zeros((k, _KEYPOINTS, _KEYPOINTS)), np.zeros((k, _KEYPOINTS))
+    diagonal = np.arange(_KEYPOINTS)
     for outlier in _NARROWING:
         chosen = surfaces.closest((depths - radius).ravel())
-        off = chosen.depth.reshape(k, N) + radius - depths
+        off = chosen.depth.reshape(k, _KEYPOINTS) + radius - depths
         known = np.isfinite(off)
         off = np.where(known, off, 0.0)
-        certain = 1.0 / (np.where(known, chosen.sigma.reshape(k, N), 1.0) ** 2 + _DATA_SIGMA**2)
+        certain = 1.0 / (np.where(known, chosen.sigma.reshape(k, _KEYPOINTS), 1.0) ** 2 + _DATA_SIGMA**2)
         weight = np.where(known & seen, certain, 0.0) / (1.0 + (off / outlier) ** 2) ** 2
         weight[_hidden(bends, depths)] = 0.0
         bones = bends[:, CHILD] * depths[:, CHILD, None] - bends[:, PARENT] * depths[:, PARENT, None]

@@ -11,7 +11,7 @@ import numpy as np
 
 from teo_skeleton_retriever.arrays import BoolArray, FloatArray
 from teo_skeleton_retriever.layouts.layout import HAND_21
-from teo_skeleton_retriever.layouts.person_layout import ARMS, N
+from teo_skeleton_retriever.layouts.person_layout import ARMS, KEYPOINTS
 
 _FOREARM, _HAND = 0.045, 0.055  # [m] half a forearm's breadth, half a palm's with the thumb
 _STEPS = np.linspace(0.0, 1.0, 6)  # a forearm is covered by discs 5 cm apart, a hand by those 2 cm apart
@@ -63,7 +63,7 @@ class Occluders(NamedTuple):
         Returns:
             Shape (N, k).
         """
-        own = np.zeros((N, len(self.points)), dtype=bool)
+        own = np.zeros((KEYPOINTS, len(self.points)), dtype=bool)
         for row, joints in limbs.items():
             own[row] = np.isin(self.owner, joints)
         return own

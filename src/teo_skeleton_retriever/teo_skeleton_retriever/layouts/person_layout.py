@@ -13,7 +13,7 @@ BODY = slice(0, len(BODY_25))
 LEFT_HAND = slice(BODY.stop, BODY.stop + len(HAND_21))
 RIGHT_HAND = slice(LEFT_HAND.stop, LEFT_HAND.stop + len(HAND_21))
 FACE = slice(RIGHT_HAND.stop, RIGHT_HAND.stop + len(FACE_70))
-N = FACE.stop
+KEYPOINTS = FACE.stop
 
 ROW = BODY_25.index
 # Rows of shoulder, elbow and wrist on the left and on the right.

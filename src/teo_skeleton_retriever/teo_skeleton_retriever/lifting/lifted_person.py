@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_skeleton_retriever.layouts.person_layout import BODY, HANDS, ROW, N
+from teo_skeleton_retriever.layouts.person_layout import BODY, HANDS, KEYPOINTS, ROW
 from teo_skeleton_retriever.layouts.skeleton_3d import KeypointStatus
 from teo_skeleton_retriever.lifting.arms import BodyMeasure, lift_arm, measure_body
 from teo_skeleton_retriever.lifting.clip import ELBOW, HIP, SHOULDER, SIDES, WRIST, Points, PoseClip
@@ -108,9 +108,9 @@ def _lift_from_afar(clip: PoseClip) -> LiftedPerson:
         confidence[:, point] = confidence[:, rows].min(axis=1)
     frames = len(places)
     whole, spread, seen_as = (
-        np.full((frames, N, 3), np.nan),
-        np.full((frames, N), np.nan),
-        np.zeros((frames, N)),
+        np.full((frames, KEYPOINTS, 3), np.nan),
+        np.full((frames, KEYPOINTS), np.nan),
+        np.zeros((frames, KEYPOINTS)),
     )
     whole[:, BODY], spread[:, BODY], seen_as[:, BODY] = places, _mean(sigma), confidence
     for side, hand in hands.items():
