@@ -39,13 +39,13 @@ from teo_skeleton_retriever.layouts.person_layout import (
     HAND_BONES,
     HANDS,
     JUMP,
+    KEYPOINTS,
     LEFT_HAND,
     PIXEL,
     RADIUS,
     RIGHT_HAND,
     ROW,
     SPEED,
-    N,
 )
 from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
@@ -65,7 +65,7 @@ _GUESSED = 0.025  # [m] standard deviation that is added to a keypoint that an a
 _OWN_LIMBS = {row: rows[1 : i + 1] for rows in ARMS.values() for i, row in enumerate(rows) if i}
 _HEAD_AND_FACE = [*HEAD, *range(FACE.start, FACE.stop)]
 _OF_HEAD, _OF_FACE = slice(0, len(HEAD)), slice(len(HEAD), None)
-_ON_HANDS = (np.arange(N) >= LEFT_HAND.start) & (np.arange(N) < RIGHT_HAND.stop)
+_ON_HANDS = (np.arange(KEYPOINTS) >= LEFT_HAND.start) & (np.arange(KEYPOINTS) < RIGHT_HAND.stop)
 
 
 class PersonParts(NamedTuple):
@@ -86,14 +86,14 @@ class PersonEstimator:
         self._body = BodyDepth(parameters)
         self._lookup = DepthLookup(nearest=parameters.min_depth, farthest=parameters.max_depth)
         self._filter = KeypointFilter(
-            N,
+            KEYPOINTS,
             acceleration=ACCELERATION,
             speed=SPEED,
             hold_time=parameters.hold_time,
             smoothing=parameters.smoothing,
         )
-        self._confidence = np.zeros(N)
-        self._from_wrist = np.full((N, 3), np.nan)  # of the hands' keypoints, as last seen [m]
+        self._confidence = np.zeros(KEYPOINTS)
+        self._from_wrist = np.full((KEYPOINTS, 3), np.nan)  # of the hands' keypoints, as last seen [m]
 
     def step(self, frame: DetectionFrame, person: Person2D, distance: float) -> PersonParts:
         """Take one image.
@@ -115,8 +115,8 @@ class PersonEstimator:
             radius=RADIUS,
             gap=GAP,
         ).between(*self._reach(before, distance))
-        depth, sigma = np.full(N, np.nan), np.full(N, np.nan)
-        optimised = np.zeros(N, dtype=bool)
+        depth, sigma = np.full(KEYPOINTS, np.nan), np.full(KEYPOINTS, np.nan)
+        optimised = np.zeros(KEYPOINTS, dtype=bool)
         fits = self._fit_hands(person, seen, surfaces, before)
         hands = {side: fit.points for side, fit in fits.items()}
         trunk = surfaces.part(GIRDLE)
@@ -146,7 +146,7 @@ class PersonEstimator:
         hidden = np.isfinite(arms.before(rays, near, arms.of(_OWN_LIMBS)))
         hidden[HEAD] |= head.hidden
         hidden[_ON_HANDS] = False  # a hand before a hand is the fit's affair
-        doubt = np.zeros(N)
+        doubt = np.zeros(KEYPOINTS)
         doubt[BODY] = np.maximum(body.across - _SURE, 0.0)
         if self._parameters.detector == "mediapipe":
             doubt += np.where(_ON_HANDS & seen.seen, extra_hand_sigma(seen.confidence), 0.0)
@@ -197,7 +197,7 @@ class PersonEstimator:
     ) -> tuple[ViewingRays, bool]:
         """Give what is seen, and whether the shoulders are where the body's outline says."""
         outlined = np.zeros(2, dtype=bool)
-        keypoints = np.zeros((N, 3))
+        keypoints = np.zeros((KEYPOINTS, 3))
         keypoints[BODY] = as_body_25(person.body)
         if self._parameters.detector == "mediapipe":
             keypoints[BODY] = corrected_body(keypoints[BODY])
