@@ -55,6 +55,7 @@ def page(browser: Browser) -> Iterator[Page]:
     context.close()
 
 
+@pytest.mark.slow
 def test_a_sentence_is_reviewed_and_what_three_found_right_is_entered_into_the_table(
     api: Api, page: Page, data_home: Path
 ) -> None:
@@ -85,6 +86,7 @@ def test_a_sentence_is_reviewed_and_what_three_found_right_is_entered_into_the_t
     assert Lut.open(data_home / "teo" / "lut")["CALLE"].provenance.standing == "reviewed"
 
 
+@pytest.mark.slow
 def test_a_sign_is_found_by_its_word_and_handshape_and_a_text_says_what_to_record(
     api: Api, page: Page, pictures: Path
 ) -> None:
@@ -106,6 +108,7 @@ def test_a_sign_is_found_by_its_word_and_handshape_and_a_text_says_what_to_recor
     expect(page.locator("#teach-gloss")).to_have_value("MATRONA")
 
 
+@pytest.mark.slow
 def test_a_bag_is_taught_and_nothing_of_it_is_left_when_it_is_discarded(
     api: Api, page: Page, tmp_path: Path
 ) -> None:

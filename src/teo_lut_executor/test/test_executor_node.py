@@ -336,6 +336,7 @@ def test_a_node_with_impossible_parameters_is_not_configured(
     rclpy.shutdown(context=context)
 
 
+@pytest.mark.slow
 def test_what_a_killed_executor_left_is_signed_or_named(
     own_graph: Graph, domain_id: int, tmp_path: Path
 ) -> None:
@@ -369,6 +370,7 @@ def test_what_a_killed_executor_left_is_signed_or_named(
     assert Journal(folder / f"domain{domain_id}.executor.jsonl").left == ()
 
 
+@pytest.mark.slow
 def test_what_is_said_while_no_executor_is_there_is_signed_once_by_the_next_or_named(
     own_graph: Graph, tmp_path: Path
 ) -> None:

@@ -94,6 +94,7 @@ def test_only_the_parts_that_move_are_exported(table: Mapping[str, Sign]) -> Non
     assert tuple(planned(table, "CASA").limbs) == ("left_arm", "right_arm", "left_hand", "right_hand")
 
 
+@pytest.mark.slow
 @settings(max_examples=8, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(seed=st.integers(0, 2**32 - 1), period=st.sampled_from([0.01, 0.02, 0.05]))
 def test_what_is_written_is_read_back(

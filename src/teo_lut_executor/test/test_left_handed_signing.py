@@ -61,6 +61,7 @@ def test_a_left_handed_plan_is_the_mirror_image_of_the_right_handed_one(
             np.testing.assert_allclose(two[palm, :3, :3], MIRROR @ one[palm, :3, :3] @ PALM, atol=1e-6)
 
 
+@pytest.mark.slow
 def test_every_sign_can_be_made_left_handed_within_the_limits_and_says_what_is_lost(
     robot: Robot, lut: Lut
 ) -> None:

@@ -93,6 +93,7 @@ def test_two_hands_pass_each_other(make_sign: MakeSign, lut: Lut, robot: Robot) 
             assert shown[joint] == pytest.approx(position, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_nearly_every_random_sentence_of_the_table_has_a_way(lut: Lut, robot: Robot) -> None:
     words = [gloss for gloss in lut.glosses() if lut[gloss].kind == "lexical"]
     planner = Planner(lut, robot=robot, least_standing="sketched")

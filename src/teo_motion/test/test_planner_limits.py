@@ -170,6 +170,7 @@ def test_a_robot_keeps_clear_of_itself_or_says_that_it_cannot(
     assert set(outcomes) == {"planned", "self_collision"}
 
 
+@pytest.mark.slow
 def test_no_limit_is_broken_by_thousands_of_tokens(table: Mapping[str, Sign]) -> None:
     rng = np.random.default_rng(1)
     names = sorted(table)

@@ -134,6 +134,7 @@ def test_all_that_is_published_is_recorded_with_every_value(graph: Any, start: A
     assert hashes["/robot_description"].startswith("RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288")
 
 
+@pytest.mark.slow
 def test_a_recorded_bag_plays_as_it_was(graph: Any, start: Any, tmp_path: Path) -> None:
     states = graph.node.create_publisher(JointState, "joint_states", DEEP)
     description = graph.node.create_publisher(String, "robot_description", LATCHED)

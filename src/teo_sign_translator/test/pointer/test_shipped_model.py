@@ -69,6 +69,7 @@ def test_names_and_numbers_never_seen_are_carried_over() -> None:
     assert _translated("Tengo 93 años.") == "YO EDAD 93"
 
 
+@pytest.mark.slow
 def test_the_scores_on_the_card_hold_for_sentences_made_anew(generated_pairs: list[Pair]) -> None:
     scores = read_card(POINTER)["result"]["scores"]
     made = [pair for pair in generated_pairs if pair.split in scores]
