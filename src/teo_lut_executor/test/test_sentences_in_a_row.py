@@ -273,7 +273,7 @@ def test_at_any_speed_sentences_begin_at_once_and_go_on_from_where_the_robot_is(
         assert np.abs(sent.plan.positions[0] - REST).max() > 0.1, "from rest again"
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(12))
 def test_a_speed_that_is_changed_whenever_costs_no_sentence(world: World, seed: int) -> None:
     draw = np.random.default_rng(seed)
     world.run(0.2)
@@ -290,7 +290,7 @@ def test_a_speed_that_is_changed_whenever_costs_no_sentence(world: World, seed: 
     assert all(status.code == "" for status in world.statuses())
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(12))
 def test_a_robot_that_is_not_heard_for_a_while_but_goes_on_is_stopped_before_it_signs_again(
     world: World, seed: int
 ) -> None:

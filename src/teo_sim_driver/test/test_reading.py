@@ -34,7 +34,7 @@ def assert_same(message):
             assert read.table(field).tolist() == rows
 
 
-@settings(max_examples=60)
+@settings(max_examples=100)
 @given(
     seed=st.integers(0, 2**32),
     joints=st.integers(0, 30),

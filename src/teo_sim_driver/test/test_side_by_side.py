@@ -23,7 +23,7 @@ def random_trajectory(rng, degrees, joints):
     )
 
 
-@settings(max_examples=40, deadline=None, derandomize=True)
+@settings(max_examples=100, deadline=None, derandomize=True)
 @given(st.integers(0, 2**32), DEGREES, DEGREES)
 def test_each_part_moves_as_it_would_alone(seed, first, second):
     rng = np.random.default_rng(seed)
