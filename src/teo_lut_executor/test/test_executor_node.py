@@ -295,11 +295,17 @@ def test_signs_are_listed_and_shown_as_soon_as_they_are_saved(
     graph.publish(graph.sentence("NUEVO"))
     graph.rest(signed=1)
 
+    sketch = make_sign("IDEA", [[0.1], [0.2]], [0.0, 0.5], joints=("AxialNeck",))
+    sketch = replace(sketch, provenance=sketch.provenance.model_copy(update={"standing": "sketched"}))
+    save_sign(graph.directory, sketch)
+    assert "IDEA" not in graph.wait(list_signs.call_async(ListSigns.Request())).glosses
+    assert graph.wait(get_sign.call_async(GetSign.Request(gloss="IDEA"))).success
+
     (graph.directory / "ROTO.json").write_text("{")
     broken = graph.wait(get_sign.call_async(GetSign.Request(gloss="ROTO")))
     assert (broken.success, broken.code) == (False, "invalid_sign")
     assert "ROTO" not in graph.wait(list_signs.call_async(ListSigns.Request())).glosses
-    for gloss in ("NUEVO", "ROTO"):
+    for gloss in ("NUEVO", "IDEA", "ROTO"):
         (graph.directory / f"{gloss}.json").unlink()
 
 

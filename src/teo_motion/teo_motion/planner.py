@@ -137,6 +137,10 @@ class Planner:
             strength=self.style.head_motion,
         )
 
+    def makes(self, sign: Sign) -> bool:
+        """Whether a sign of the table is made, and not spelled for its low standing."""
+        return self._lexicon.makes(sign)
+
     def check(self, tokens: Sequence[Token], *, form: SentenceForm = STATEMENT) -> None:
         """Refuse what is known to be no sentence without planning it.
 

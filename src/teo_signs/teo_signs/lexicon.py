@@ -132,6 +132,11 @@ class Lexicon:
         check_tokens(tokens)
         return tuple(signed for token in self._numbers_joined(tokens) for signed in self._resolve(token))
 
+    def makes(self, sign: Sign) -> bool:
+        """Whether a sign of the table is made; a lexical one of too low a standing is spelled instead."""
+        must = sign.kind == "letter" or (sign.kind == "number" and len(sign.gloss) == 1)
+        return must or sign.provenance.standing in self._good_enough
+
     @staticmethod
     def _numbers_joined(tokens: Sequence[Token]) -> Iterator[Token]:
         """Tokens, those that hold the digits of one word as one."""
@@ -188,10 +193,7 @@ class Lexicon:
             sign = self._signs[gloss]
         except LutError as error:
             raise PlanError("invalid_sign", f"the entry of {gloss!r} cannot be used: {error}") from error
-        must = kind == Kind.LETTER or (kind == Kind.NUMBER and len(gloss) == 1)
-        if not must and sign.provenance.standing not in self._good_enough:
-            return None
-        return sign if sign.kind == _SIGN_KIND[kind] else None
+        return sign if sign.kind == _SIGN_KIND[kind] and self.makes(sign) else None
 
     def _spell(self, token: Token, text: str) -> list[SignedToken]:
         signed: list[SignedToken] = []

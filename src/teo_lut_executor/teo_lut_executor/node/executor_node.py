@@ -140,7 +140,14 @@ class ExecutorNode(SelfStartingNode):
             self.create_timer(1.0 / _FEEDBACK_RATE, self._give_feedback),
             self.create_timer(DIAGNOSTICS_PERIOD, self._publish_diagnostics),
         ]
-        self._offered = Services(self, self._lut, self._queue, now=self._now, carry_out=self._carry_out)
+        self._offered = Services(
+            self,
+            self._lut,
+            self._queue,
+            makes=lambda sign: self._checker.makes(sign),
+            now=self._now,
+            carry_out=self._carry_out,
+        )
         self._intake = SentenceIntake(
             self,
             self._queue,

@@ -16,7 +16,7 @@ from teo_lut_executor.execution.queue import ExecutionQueue
 from teo_lut_executor.node.messages import sign_trajectory
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import Lut
-from teo_signs.sign import gloss_key
+from teo_signs.sign import Sign, gloss_key
 
 _KINDS = {"lexical": SignToken.KIND_LEXICAL, "letter": SignToken.KIND_LETTER, "number": SignToken.KIND_NUMBER}
 
@@ -34,6 +34,7 @@ class Services:
         lut: Lut,
         queue: ExecutionQueue,
         *,
+        makes: Callable[[Sign], bool],
         now: Callable[[], float],
         carry_out: Callable[[Sequence[Effect]], None],
     ) -> None:
@@ -43,11 +44,12 @@ class Services:
             node: Serves.
             lut: The table.
             queue: What is listed and cleared.
+            makes: Whether a sign of the table is made and not spelled.
             now: Time of the node's clock [s].
             carry_out: Does what the queue answers.
         """
         self._node, self.lut, self._queue = node, lut, queue
-        self._now, self._carry_out = now, carry_out
+        self._makes, self._now, self._carry_out = makes, now, carry_out
         self._services = (
             node.create_service(ListSigns, "list_signs", self._on_list_signs),
             node.create_service(GetSign, "get_sign", self._on_get_sign),
@@ -70,7 +72,7 @@ class Services:
 
     def _on_list_signs(self, request: ListSigns.Request, response: ListSigns.Response) -> ListSigns.Response:
         self.refresh()
-        for problem in _list_signs(self.lut, request, response):
+        for problem in _list_signs(self.lut, self._makes, request, response):
             self._node.get_logger().warning(problem)
         return response
 
@@ -93,8 +95,10 @@ class Services:
         return response
 
 
-def _list_signs(lut: Lut, request: ListSigns.Request, response: ListSigns.Response) -> list[str]:
-    """Fill in the language, the glosses that begin with the prefix, and their kinds.
+def _list_signs(
+    lut: Lut, makes: Callable[[Sign], bool], request: ListSigns.Request, response: ListSigns.Response
+) -> list[str]:
+    """Fill in the language, the glosses that begin with the prefix and are signed, and their kinds.
 
     Returns:
         Why entries were left out; a sentence each.
@@ -105,12 +109,13 @@ def _list_signs(lut: Lut, request: ListSigns.Request, response: ListSigns.Respon
     for gloss in lut.glosses():
         if gloss.startswith(prefix):
             try:
-                kind = _KINDS[lut[gloss].kind]
+                sign = lut[gloss]
             except LutError as error:
                 problems.append(f"not listed: {error}")
                 continue
-            response.glosses.append(gloss)
-            response.kinds.append(kind)
+            if makes(sign):
+                response.glosses.append(gloss)
+                response.kinds.append(_KINDS[sign.kind])
     return problems
 
 
