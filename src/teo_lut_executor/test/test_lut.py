@@ -8,11 +8,17 @@ import json
 from pathlib import Path
 
 import cv2
+import numpy as np
 import pytest
+from made_signs import make_sign
+from numpy.typing import NDArray
 from typer.testing import CliRunner, Result
 
+from teo_description.pictures.rendering import save_png
+from teo_description.robot import Robot
 from teo_lut_executor.cli.lut import app
 from teo_signs.look_up_table import default_lut_directory
+from teo_signs.photo_manner import in_one_picture
 
 TABLE = default_lut_directory()
 
@@ -145,6 +151,55 @@ def test_overview_shows_two_moments_of_each_sign(tmp_path: Path) -> None:
     # Fifty-two moments, sixteen a row.
     assert picture.shape[1] > 16 * 150 and 4 * 150 < picture.shape[0] < 4 * 250
     assert run("overview", "--kind", "none", "--lut", TABLE, "--out", tmp_path / "no.png").exit_code == 1
+
+
+def test_compare_lays_each_sign_beside_its_picture(tmp_path: Path) -> None:
+    photograph = np.full((300, 200, 3), (40, 90, 30), np.uint8)
+    for name in ("casa.png", "libro.jpg"):
+        cv2.imwrite(str(tmp_path / name), photograph)
+    out = tmp_path / "sheet.png"
+    pairs = ("CASA", tmp_path / "casa.png", "LIBRO", tmp_path / "libro.jpg")
+    result = run("compare", *pairs, "--lut", TABLE, "--out", out)
+    assert result.exit_code == 0, result.output
+    sheet = cv2.imread(str(out))
+    cells = np.array_split(sheet, 4, axis=1)
+    # The photographs whole and in their colour, not the robots.
+    greens = [float((np.abs(cell.astype(int) - (40, 90, 30)).max(axis=2) < 20).mean()) for cell in cells]
+    assert min(greens[0], greens[2]) > 0.55 and max(greens[1], greens[3]) < 0.05
+
+
+def test_compare_draws_the_way_of_a_hand_and_how_often_it_goes(tmp_path: Path) -> None:
+    def drawn(name: str, knots: list[list[float]]) -> NDArray[np.int64]:
+        """What is drawn over the robot, which is grey: where the picture is pure white or black."""
+        times = [0.4 * index for index in range(len(knots))]
+        sign = make_sign("OLA", knots, times, joints=("FrontalRightShoulder", "FrontalRightElbow"))
+        picture = in_one_picture(Robot.load(), sign).astype(int)
+        save_png(tmp_path / f"{name}.png", picture.astype(np.uint8))
+        return np.argwhere(picture.min(axis=2) == 255)
+
+    low, high = [-0.6, -1.0], [-0.6, -1.7]
+    up, down = drawn("up", [low, high]), drawn("down", [high, low])
+    twice = drawn("twice", [low, high, low, high])
+    assert len(drawn("still", [high, high])) == 0
+    # The head, the broadest part, is where the hand ends: above (rows count downwards) or below.
+    middle = np.mean([up[:, 0].min(), up[:, 0].max()])
+    assert np.bincount(up[:, 0]).argmax() < middle < np.bincount(down[:, 0]).argmax()
+    # The same ends and way; a second head right behind the first.
+    differing = np.array([*set(map(tuple, up)).symmetric_difference(map(tuple, twice))])
+    assert len(differing) > 50 and differing[:, 0].max() < middle
+
+
+def test_compare_refuses_what_is_no_pair_and_no_picture(tmp_path: Path) -> None:
+    (tmp_path / "text.png").write_text("no picture")
+    for pairs, code in (
+        (("CASA",), "bad_arguments"),
+        (("NADIE", tmp_path / "text.png"), "unknown_sign"),
+        (("CASA", tmp_path / "text.png"), "bad_picture"),
+        (("CASA", tmp_path / "absent.png"), "bad_picture"),
+    ):
+        result = run("compare", *pairs, "--lut", TABLE, "--out", tmp_path / "sheet.png")
+        assert result.exit_code == 1 and code in result.output
+    assert not (tmp_path / "sheet.png").exists()
 
 
 def test_schema_prints_json() -> None:

@@ -236,6 +236,32 @@ def overview(
 
 
 @app.command()
+def compare(
+    pairs: Annotated[
+        list[str], typer.Argument(metavar="GLOSS PICTURE...", help="Signs, each with a picture of it.")
+    ],
+    out: Annotated[Path, typer.Option(help="A .png file.")],
+    lut: TableDirectory = None,
+    robot: RobotName = DEFAULT_ROBOT,
+    language: LanguageCode = DEFAULT_LANGUAGE,
+) -> None:
+    """Draw signs beside pictures of them: both ends in one picture, the way as an arrow, touches as rays."""
+    from teo_signs.photo_manner import save_comparison
+
+    if len(pairs) % 2:
+        fail(LutError("bad_arguments", f"expected a picture after each gloss, got none after {pairs[-1]!r}"))
+    signs = open_table(lut, robot, language)
+    try:
+        found = [(signs[gloss], Path(file)) for gloss, file in zip(pairs[::2], pairs[1::2], strict=True)]
+        save_comparison(out, found)
+    except LutError as error:
+        fail(error)
+    except OSError as error:
+        fail(LutError("not_written", f"--out: expected a place to write to, got: {error}"))
+    _output.print(f"wrote {out}: {len(found)} signs", soft_wrap=True)
+
+
+@app.command()
 def schema() -> None:
     """The JSON Schema of an entry."""
     print(json.dumps(sign_json_schema(), indent=2, ensure_ascii=False))
