@@ -92,7 +92,7 @@ def _picture(file: Path) -> Image:
     return np.asarray(ImageOps.pad(on_white.convert("RGB"), _SIZE, color="white"))
 
 
-def _moments(sign: Sign) -> Iterator[NDArray[np.float64]]:
+def _moments(sign: Sign) -> Iterator[dict[str, float]]:
     for time in np.union1d(sign.times, np.linspace(0.0, sign.duration, _MOMENTS)):
         yield pose_at(sign, float(time))
 
