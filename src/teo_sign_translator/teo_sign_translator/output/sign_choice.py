@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import replace
 from pathlib import Path
@@ -128,7 +129,12 @@ class SignChooser:
         self.substitutes = substitutes
 
     def choose(
-        self, output_words: Iterable[OutputWord], signs: Set[str] | None, *, general: bool = False
+        self,
+        output_words: Iterable[OutputWord],
+        signs: Set[str] | None,
+        *,
+        general: bool = False,
+        blurred: Set[str] = frozenset(),
     ) -> list[OutputWord]:
         """Make output words of what has signs, in the same order.
 
@@ -136,21 +142,39 @@ class SignChooser:
             output_words: Glosses, letters, numbers, pauses.
             signs: Glosses that have a sign of their own. None if that is not known: then every gloss that
                 could have one is kept, for the executor to look up, and names are spelled.
-            general: Whether the sentence stays true with something more general in a word's place. Two
-                words never become the same: of what they differ in nothing would be left.
+            general: Whether the sentence stays true with something more general in a word's place.
+            blurred: More general signs that are not used all the same: those of `blurred` of its text.
+        """
+        return [
+            _shows(chosen, word)
+            for word in output_words
+            for chosen in self._choose(word, signs, blurred if general else None)
+        ]
+
+    def blurred(self, output_words: Iterable[OutputWord], signs: Set[str] | None) -> frozenset[str]:
+        """More general signs by which two things of a text would become one.
+
+        A wolf and three pigs that all become ANIMAL are nobody's story any more.
+
+        Args:
+            output_words: Of all sentences of the text.
+            signs: Glosses that have a sign; see `choose`.
         """
         words = list(output_words)
-        taken = {word.signs[0] for word in words if word.signs}
-        result: list[OutputWord] = []
+        if signs is None:
+            return frozenset()
+        said = {word.signs[0] for word in words if word.kind is Kind.LEXICAL and word.signs}
+        shown: defaultdict[str, set[str]] = defaultdict(set)
         for word in words:
-            chosen = self._choose(word, signs, taken if general else None)
-            taken |= {each.signs[0] for each in chosen if each.origin is Origin.HYPERNYM}
-            result += (_shows(each, word) for each in chosen)
-        return result
+            for chosen in self._choose(word, signs, frozenset()):
+                if chosen.origin is Origin.HYPERNYM:
+                    shown[chosen.signs[0]].add(word.signs[0])
+        return frozenset(above for above, glosses in shown.items() if len(glosses) > 1 or above in said)
 
     def _choose(
-        self, output_word: OutputWord, signs: Set[str] | None, taken: Set[str] | None
+        self, output_word: OutputWord, signs: Set[str] | None, blurred: Set[str] | None
     ) -> Sequence[OutputWord]:
+        """What shows a word; `blurred` is None where nothing more general may."""
         if output_word.kind is not Kind.LEXICAL or not output_word.signs:
             return [output_word]
         (gloss,) = output_word.signs
@@ -167,13 +191,13 @@ class SignChooser:
         said = self._paraphrase(gloss, signs)
         if said:
             return [replace(output_word, signs=(part,), origin=Origin.PARAPHRASE) for part in said]
-        above = None if taken is None else self._hypernym(gloss, signs)
-        if above is not None and taken is not None and above not in taken:
+        above = None if blurred is None else self._hypernym(gloss, signs)
+        if above is not None and blurred is not None and above not in blurred:
             return [replace(output_word, signs=(above,), origin=Origin.HYPERNYM)]
         parts = [part for part in gloss.split("_") if part]
         if len(parts) > 1:
             return [
-                c for part in parts for c in self._choose(replace(output_word, signs=(part,)), signs, taken)
+                c for part in parts for c in self._choose(replace(output_word, signs=(part,)), signs, blurred)
             ]
         return self._letters(output_word)
 

@@ -213,10 +213,13 @@ class Translator:
             if isinstance(each, TranslationError):
                 answers.append(each)
                 continue
+            of_text = next(translated)
+            words = (word for sentence in of_text for word in sentence.output_words)
+            blurred = self._chooser.blurred(words, signs)
             sentences = [
                 sentence
-                for translated_sentence in next(translated)
-                for sentence in self._finish(translated_sentence, each.cleaned, signs)
+                for translated_sentence in of_text
+                for sentence in self._finish(translated_sentence, each.cleaned, signs, blurred)
             ]
             answers.append(
                 Translation(
@@ -230,7 +233,11 @@ class Translator:
         return answers
 
     def _finish(
-        self, translated_sentence: TranslatedSentence, text: str, signs: Set[str] | None
+        self,
+        translated_sentence: TranslatedSentence,
+        text: str,
+        signs: Set[str] | None,
+        blurred: Set[str],
     ) -> list[Sentence]:
         """One sentence; several if it has more tokens than a message can hold."""
         clauses = translated_sentence.clauses
@@ -240,7 +247,7 @@ class Translator:
             kind = translated_sentence.recognised
         signed, dropped = without_carried(translated_sentence.output_words, self._spelling)
         general = may_be_generalised(clauses, kind, self._rules)
-        chosen = self._chooser.choose(signed, signs, general=general)
+        chosen = self._chooser.choose(signed, signs, general=general, blurred=blurred)
         output_words = with_numbers_incorporated(chosen, signs, self._incorporated)
         parts = [number_tokens(part) for part in divide(output_words, MAX_SENTENCE_TOKENS)]
         return [

@@ -85,6 +85,8 @@ def test_what_no_token_stands_for_is_listed() -> None:
         "¡Compra un perro!",
         "El perro es fiel.",
         "Tengo un perro y un animal.",
+        "Tengo un perro y un gato.",
+        "Aquí vive un perro. Allí vive una vaca.",
     ],
 )
 def test_nothing_general_is_signed_where_the_sentence_would_change(text: str) -> None:
@@ -96,3 +98,5 @@ def test_nothing_general_is_signed_where_the_sentence_would_change(text: str) ->
 
 def test_something_general_is_signed_where_it_stays_true() -> None:
     assert "ANIMAL" in str(TRANSLATOR.translate("Tengo un perro.", {"YO", "ANIMAL"}))
+    twice = str(TRANSLATOR.translate("Aquí vive un perro. El perro come mucho.", {"ANIMAL"}))
+    assert twice.split().count("ANIMAL") == 2
