@@ -6,7 +6,7 @@
 2. A gloss signs the word whose dictionary form it is, and the words that `gloss_words.tsv` lists for it.
 3. Of the model's translations the one that leaves out the fewest words is taken.
 4. What that leaves out is put back as the gloss of its dictionary form, beside the gloss of the nearest word;
-   a question word goes last, as LSE asks.
+   a question word goes last, as LSE asks; a courtesy ("por favor") is the first or the last sign.
 5. A word is signed once: a dictionary form that is carried over goes if its words are signed already.
 """
 
@@ -36,10 +36,14 @@ class CompletenessWords:
     Attributes:
         goes: Verb that only says the future before an infinitive; empty for none.
         goes_to: Word between that verb and the infinitive.
+        courtesy: Words of a courtesy, in order; empty for none.
+        courtesy_gloss: The gloss of all of them.
     """
 
     goes: str
     goes_to: str
+    courtesy: tuple[str, ...]
+    courtesy_gloss: str
 
 
 @dataclass(frozen=True)
@@ -99,6 +103,9 @@ class PipelineWords:
 #: Of a gloss that was put back: its word is right, its place a guess. Below the translator's threshold, so
 #: that its sentence is called uncertain.
 PUT_BACK_CONFIDENCE = 0.2
+
+#: Of a courtesy: it stands first or last, as typed, and changes nothing else in the sentence.
+_COURTESY_CONFIDENCE = 0.9
 
 _ANY = "*"
 # Tags of words that LSE signs last.
@@ -212,6 +219,14 @@ class Completeness:
         glosses = list(best)
         put_back = [False] * len(best)
         for place, reading in missing.items():
+            courtesy = self._courtesy(words, place)
+            if courtesy:
+                first = all(word.is_mark for word in words[: courtesy[0]])
+                index = 0 if first else len(glosses)
+                gloss = OutputGloss(self.words.courtesy_gloss, courtesy, _COURTESY_CONFIDENCE, copied=False)
+                glosses.insert(index, gloss)
+                put_back.insert(index, True)
+                continue
             index = len(glosses)
             if not reading.tag.startswith(_LAST):
                 index = self._beside(place, words, glosses)
@@ -259,6 +274,14 @@ class Completeness:
             and following[0].form == self.words.goes_to
             and any(reading.tag == "V:inf" for reading in following[1].readings)
         )
+
+    def _courtesy(self, words: Sequence[SourceWord], last: int) -> tuple[int, ...]:
+        """Places of the words of a courtesy that ends at a place; empty if none does."""
+        count = len(self.words.courtesy)
+        places = range(last + 1 - count, last + 1)
+        spoken = count > 0 and places.start >= 0
+        found = spoken and tuple(words[place].form for place in places) == self.words.courtesy
+        return tuple(places) if found else ()
 
     def _asks_for_agreement(self, words: Sequence[SourceWord], place: int) -> bool:
         """Whether a word is "no" of "…, ¿no?"."""

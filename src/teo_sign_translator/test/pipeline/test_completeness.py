@@ -90,8 +90,9 @@ def test_what_the_grammar_translates_loses_no_word(generated_pairs: list[Pair]) 
             OutputGloss(gloss, places, 0.9, False)
             for gloss, places in zip(pair.glosses, pair.alignment, strict=True)
         ]
+        # The grammar says no courtesy: it is put back by a rule of its own.
         lost = [words[place].form for place in COMPLETENESS.left_out(words, said)]
-        if lost:
+        if lost not in ([], ["favor"]):
             lossy.append(f"{pair.text} -> {' '.join(pair.glosses)}: {lost}")
     # The odd rule leaves a word to the context; many would be a list that the grammar has outgrown.
     assert len(lossy) < 0.01 * 3000, "\n".join(lossy[:20])
@@ -123,9 +124,11 @@ def test_what_is_left_out_is_put_back_beside_its_neighbour(said: str, completed:
         ("¿Cuándo come Ana?", "ANA(2) COMER(1)", "ANA COMER CUÁNDO"),
         ("No veo a Ana", "YO(1) VER(1)", "YO NO VER ANA"),
         ("Compra 7 gatos", "GATO(2) COMPRAR(0)", "GATO COMPRAR 7"),
+        ("Por favor, come", "COMER(3)", "POR_FAVOR COMER"),
+        ("¿Puedes comer, por favor?", "COMER(2) PODER(1)", "COMER PODER POR_FAVOR"),
     ],
 )
-def test_questions_negations_names_and_numbers_are_put_back(sentence: str, said: str, completed: str) -> None:
+def test_questions_negations_names_numbers_and_courtesies_are_put_back(sentence: str, said: str, completed: str) -> None:
     assert _completed(sentence, said) == completed
 
 
