@@ -20,6 +20,7 @@ from rich.table import Table
 BENCHES = (
     "planning",
     "lexicon",
+    "photographs",
     "letters",
     "signs.robots",
     "signs.durations",
