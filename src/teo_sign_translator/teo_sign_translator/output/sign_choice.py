@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import replace
@@ -40,6 +41,9 @@ def may_be_generalised(clauses: Sequence[Clause], kind: SentenceType, rules: Tex
     words = [fold(word.lower) for clause in clauses for word in clause.words]
     return not any(word in listed.strict or word.startswith(listed.of_kinds) for word in words)
 
+
+# Tags of forms that name the same thing as their dictionary form: the feminine, the participle.
+_OF_ONE_WORD = re.compile(r"[NA]:fs|V:part:.*")
 
 #: Where a language's text folder says which; the file explains its columns.
 INCORPORATED_NUMBERS = "incorporated_numbers.tsv"
@@ -216,15 +220,21 @@ class SignChooser:
         return None
 
     def _synonyms(self, glosses: Sequence[str]) -> Iterator[str]:
-        """Other names of a sign: those of the lists, then the participle of a verb (CANSAR: CANSADO)."""
+        """Other names of a sign: those of the lists, then the participle of a verb (CANSAR: CANSADO).
+
+        A participle that is a noun as well (PESCAR: PESCADO) is the noun's sign.
+        """
         for gloss in glosses:
             yield from self._lists.synonyms.get(gloss, ())
         for gloss in glosses:
             if self._morphology is not None and gloss.endswith(("AR", "ER", "IR", "ÍR")):
                 try:
-                    yield self._morphology.inflect(gloss.lower(), "V:part:ms").upper()
+                    participle = self._morphology.inflect(gloss.lower(), "V:part:ms")
                 except TranslationError:  # no verb
                     continue
+                readings = self._morphology.readings(participle)
+                if not any(reading.tag.startswith("N") and reading.exact for reading in readings):
+                    yield participle.upper()
 
     def _paraphrase(self, gloss: str, signs: Set[str]) -> tuple[str, ...]:
         """Signs that say a gloss together; none unless the table has all of them."""
@@ -250,12 +260,18 @@ class SignChooser:
         return None
 
     def _lemmas(self, gloss: str) -> tuple[str, ...]:
-        """Other glosses of the same word: AMIGO for AMIGA."""
+        """Other glosses of the same word: AMIGO for AMIGA, ABRIR for ABIERTO.
+
+        A gloss is a dictionary form: where it is also a form of another word (CUENTA of CONTAR, ALTA of ALTO,
+        DEBERES of DEBER), it is not that word.
+        """
         if self._morphology is None or "_" in gloss:
             return ()
-        readings = self._morphology.readings(gloss.lower())
-        lemmas = (reading.lemma.upper() for reading in readings if reading.exact)
-        return tuple(dict.fromkeys(lemma for lemma in lemmas if lemma != gloss))
+        readings = [each for each in self._morphology.readings(gloss.lower()) if each.exact]
+        if any(reading.lemma.upper() == gloss for reading in readings):
+            return ()
+        lemmas = (reading.lemma.upper() for reading in readings if _OF_ONE_WORD.fullmatch(reading.tag))
+        return tuple(dict.fromkeys(lemmas))
 
     def _letters(self, output_word: OutputWord) -> list[OutputWord]:
         (gloss,) = output_word.signs
