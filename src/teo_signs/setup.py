@@ -19,5 +19,5 @@ setup(
     maintainer_email="teo-sign@example.org",
     description="A sign and the table of signs: file, schema, evidence, tokens, lexicon, mirroring, export.",
     license="Apache-2.0",
-    extras_require={"pictures": ["pillow"], "test": ["hypothesis", "pytest"]},
+    extras_require={"pictures": ["opencv-python-headless", "pillow"], "test": ["hypothesis", "pytest"]},
 )

@@ -44,7 +44,7 @@ _STILL_FILM = 1.0
 _SHEET_COLUMNS = 6
 _OVERVIEW_COLUMNS = 16
 # Width and height of a sign in the overview [pixel].
-_OVERVIEW_SIZE = 200
+_OVERVIEW_SIZE = 150
 _OVERVIEW_COLOURS = 128
 
 

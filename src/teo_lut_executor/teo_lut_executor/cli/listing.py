@@ -33,6 +33,8 @@ from teo_signs.sign_schema import STANDINGS
 _output = Console(highlight=False)
 # Narrowest column of sources [characters]: their names are not cut on a screen of 80.
 _SOURCE_WIDTH = 17
+# [characters] More than any line of the list takes.
+_WIDEST = 1000
 
 
 def list_signs(
@@ -104,7 +106,9 @@ def _print_signs(table: Lut, chosen: list[Sign], unreadable: dict[str, LutError]
         lines[sign.gloss] = (sign.kind, sign.handedness, *figures, standing, source)
     for gloss in sorted(lines):
         rows.add_row(gloss, *lines[gloss])
-    _output.print(rows)
+    # A narrow terminal cuts no name: let the lines run on.
+    least = _output.measure(rows, options=_output.options.update(max_width=_WIDEST)).minimum
+    Console(highlight=False, width=max(_output.width, least)).print(rows)
     standings = Counter(sign.provenance.standing for sign in chosen)
     counts = ", ".join(f"{standings[standing]} {standing}" for standing in STANDINGS if standings[standing])
     _output.print(

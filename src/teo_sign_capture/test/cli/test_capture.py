@@ -70,9 +70,9 @@ def test_without_a_table_a_sign_goes_to_the_users_own_and_is_found_there_first(
     bag: Path, data_home: Path
 ) -> None:
     own = data_home / "teo" / "lut"
-    assert run(f"capture {bag} --gloss SIGNO --no-draw").exit_code == 0
-    assert [path.name for path in own.iterdir()] == ["SIGNO.json"]
-    assert str(own / "SIGNO.json") in run("show SIGNO").output
+    assert run(f"capture {bag} --gloss NUEVA_SEÑA --no-draw").exit_code == 0
+    assert [path.name for path in own.iterdir()] == ["NUEVA_SEÑA.json"]
+    assert str(own / "NUEVA_SEÑA.json") in run("show NUEVA_SEÑA").output
     taken = run(f"capture {bag} --gloss CASA --no-draw")
     assert taken.exit_code == 1
     assert taken.output.startswith("exists")

@@ -219,18 +219,16 @@ class Completeness:
         glosses = list(best)
         put_back = [False] * len(best)
         for place, reading in missing.items():
-            courtesy = self._courtesy(words, place)
-            if courtesy:
-                first = all(word.is_mark for word in words[: courtesy[0]])
-                index = 0 if first else len(glosses)
-                gloss = OutputGloss(self.words.courtesy_gloss, courtesy, _COURTESY_CONFIDENCE, copied=False)
-                glosses.insert(index, gloss)
-                put_back.insert(index, True)
-                continue
             index = len(glosses)
             if not reading.tag.startswith(_LAST):
                 index = self._beside(place, words, glosses)
             gloss = OutputGloss(copied_gloss(reading), (place,), PUT_BACK_CONFIDENCE, copied=True)
+            glosses.insert(index, gloss)
+            put_back.insert(index, True)
+        courtesy = self._courtesy(words)
+        if courtesy and all(gloss.gloss != self.words.courtesy_gloss for gloss in glosses):
+            index = 0 if all(word.is_mark for word in words[: courtesy[0]]) else len(glosses)
+            gloss = OutputGloss(self.words.courtesy_gloss, courtesy, _COURTESY_CONFIDENCE, copied=False)
             glosses.insert(index, gloss)
             put_back.insert(index, True)
         return CompleteTranslation(tuple(glosses), tuple(put_back))
@@ -239,10 +237,12 @@ class Completeness:
         """Places of the words that have to be signed and that no gloss signs."""
         signed = {place for places in self._signed(words, glosses) for place in places}
         exclaims = bool(words) and words[-1].form == "!"
+        courtesy = self._courtesy(words)
         return [
             place
             for place, word in enumerate(words)
             if place not in signed
+            and place not in courtesy
             and not self.function_words.may_be_left_out(word)
             and not self._says_only_the_future(words, place)
             and not self._asks_for_agreement(words, place)
@@ -275,13 +275,13 @@ class Completeness:
             and any(reading.tag == "V:inf" for reading in following[1].readings)
         )
 
-    def _courtesy(self, words: Sequence[SourceWord], last: int) -> tuple[int, ...]:
-        """Places of the words of a courtesy that ends at a place; empty if none does."""
+    def _courtesy(self, words: Sequence[SourceWord]) -> tuple[int, ...]:
+        """Places of the words of the courtesy; empty if none is said."""
         count = len(self.words.courtesy)
-        places = range(last + 1 - count, last + 1)
-        spoken = count > 0 and places.start >= 0
-        found = spoken and tuple(words[place].form for place in places) == self.words.courtesy
-        return tuple(places) if found else ()
+        for first in range(len(words) + 1 - count) if count else ():
+            if tuple(word.form for word in words[first : first + count]) == self.words.courtesy:
+                return tuple(range(first, first + count))
+        return ()
 
     def _asks_for_agreement(self, words: Sequence[SourceWord], place: int) -> bool:
         """Whether a word is "no" of "…, ¿no?"."""
