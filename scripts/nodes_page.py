@@ -118,7 +118,9 @@ TOPICS = (
 SERVICES = (
     Interface("translate", "teo_sign_msgs/Translate", "Translate a text without publishing it"),
     Interface(
-        "list_signs", "teo_sign_msgs/ListSigns", "Glosses of the table that are signed and not spelled; the translator asks every two seconds"
+        "list_signs",
+        "teo_sign_msgs/ListSigns",
+        "Glosses that are signed, not spelled; the translator asks every two seconds",
     ),
     Interface("get_sign", "teo_sign_msgs/GetSign", "Knots and file of one sign"),
     Interface("list_queue", "teo_sign_msgs/ListQueue", "Sentences not yet signed to the end"),

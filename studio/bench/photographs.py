@@ -44,8 +44,10 @@ def measure() -> list[Figure]:
     twice = {gloss: found for gloss, found in judged.items() if len(found) == 2}
     figures = [_by_standing("all", list(twice.values()))]
     standings = {gloss: signs[gloss].provenance.standing for gloss in twice}
-    for standing in sorted(set(standings.values())):
-        figures.append(_by_standing(standing, [twice[g] for g in twice if standings[g] == standing]))
+    figures += [
+        _by_standing(standing, [twice[gloss] for gloss in twice if standings[gloss] == standing])
+        for standing in sorted(set(standings.values()))
+    ]
     figures += [_aspect(aspect, list(twice.values())) for aspect in _ASPECTS]
     once = len(judged) - len(twice)
     return [*figures, Figure("judged once; changed since", f"{once}; {len(changed - judged.keys())}")]

@@ -127,7 +127,9 @@ def test_what_is_left_out_is_put_back_beside_its_neighbour(said: str, completed:
         ("¿Puedes comer, por favor?", "COMER(2) PODER(1)", "COMER PODER POR_FAVOR"),
     ],
 )
-def test_questions_negations_names_numbers_and_courtesies_are_put_back(sentence: str, said: str, completed: str) -> None:
+def test_questions_negations_names_numbers_courtesies_are_put_back(
+    sentence: str, said: str, completed: str
+) -> None:
     assert _completed(sentence, said) == completed
 
 
