@@ -37,6 +37,9 @@ class SmallRobot(Node):
         self.received: list[JointTrajectory] = []
         self.statuses: list[ExecutorStatus] = []
         self.path: list[tuple[float, np.ndarray]] = []  # time [s] and positions [rad] of every step
+        self.late = (
+            0.0  # [s] by which a motion came after its stamp at most; the robot makes up for it at once
+        )
         self.stand_at_home()
         self._states = self.create_publisher(JointState, "joint_states", 10)
         self.create_subscription(JointTrajectory, "joint_trajectory", self._on_trajectory, 10)
@@ -58,7 +61,9 @@ class SmallRobot(Node):
         assert tuple(message.joint_names) == COMMANDED_JOINTS
         self.received.append(message)
         stamp = message.header.stamp.sec + message.header.stamp.nanosec * 1e-9
-        begin = stamp or self._now()
+        now = self._now()
+        begin = stamp or now
+        self.late = max(self.late, now - begin)
         here, before = self._at(begin), self._times < begin
         points = np.array([point.positions for point in message.points])
         times = [point.time_from_start.sec + point.time_from_start.nanosec * 1e-9 for point in message.points]
