@@ -270,8 +270,8 @@ def test_a_canceled_goal_brings_the_robot_back_to_rest(graph: Graph) -> None:
     np.testing.assert_allclose(graph.robot.positions, REST, atol=0.02)
     times = np.array([when for when, _ in graph.robot.path[before:]])
     steps = np.abs(np.diff([positions for _, positions in graph.robot.path[before:]], axis=0)).max(axis=1)
-    # No jump: full speed in the time since the step before, however late a timer was; a motion that came late is
-    # joined at once, after as long on the way before it.
+    # No jump: full speed in the time since the step before, however late a timer was; a motion that came
+    # late is joined at once, after as long on the way before it.
     speed = float(joint_limits().velocity[0])
     assert (steps <= speed * (np.diff(times) + 2.0 * graph.robot.late) + 0.03).all()
     graph.spin_until(lambda: graph.robot.states()[-1] == ExecutorStatus.STATE_IDLE)
