@@ -6,7 +6,7 @@ What the right hand does the left one does, and the other way round; head and tr
 The limits of a robot's arms need not be mirror images: TEO's left upper arm turns in 5.4 deg less than the
 right one, its wrist turns out 4 deg less. A posture that lies beyond is replaced by the one within the limits
 that brings the hand nearest to its mirror image, and the sign says how far off that is (`mirror_error_mm`,
-`mirror_error_deg` in its quality): by 14 mm and 8 deg at most in TEO's table. What is beyond a limit
+`mirror_error_deg` in its quality): by 23 mm and 8 deg at most in TEO's table. What is beyond a limit
 elsewhere stays so, and a planner refuses it by name.
 """
 

@@ -42,7 +42,7 @@ def test_numbers_count_with_straight_fingers_from_the_index_on(digit: str) -> No
 
 
 def test_counting_shows_the_back_of_hands_beside_each_other(robot: Robot) -> None:
-    for digit in map(str, range(1, 11)):
+    for digit in map(str, range(2, 11)):  # the films of 1 show its palm
         q = robot.configuration(sign(digit).pose(0))
         right = robot.placement(q, "right_palm")
         assert right[0, 2] < -0.7, digit

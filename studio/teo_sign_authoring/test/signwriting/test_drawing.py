@@ -58,7 +58,7 @@ def test_entries_of_both_tables_that_name_the_dictionary_are_drawn_the_others_to
     file = spml(
         tmp_path,
         ("mil", FIST), ("bandeja &amp; vaso", HANDS), ("abrir 1", HANDS),
-        ("fresa", FIST), ("fresa", HANDS), ("isla", ""),
+        ("humo", FIST), ("humo", HANDS), ("isla", ""),
     )  # fmt: skip
     told = draw(file)
     assert told.exit_code == 0, told.output
@@ -66,7 +66,7 @@ def test_entries_of_both_tables_that_name_the_dictionary_are_drawn_the_others_to
     named = sum(re.search(r'"source": "SignPuddle[^"]*, entry', entry) is not None for entry in shipped)
     assert f"2 of {named} signs drawn" in told.output  # the user's own: one more, and one less
     assert 'not_found: ISLA: entry "isla"' in told.output
-    assert 'several: FRESA: entry "fresa"' in told.output
+    assert 'several: HUMO: entry "humo"' in told.output
     assert json.loads((home / "signwriting" / "signs.json").read_text("utf-8")) == {
         "1000": {"entry": "mil", "fsw": FIST},
         "BANDEJA": {"entry": "bandeja & vaso", "fsw": HANDS},
