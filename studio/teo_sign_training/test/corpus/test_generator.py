@@ -121,7 +121,8 @@ def test_alignments_point_into_the_sentence_and_every_content_word_is_signed(pai
         for place, word in enumerate(words):
             is_mark = word.readings[0].tag == "MARK"
             goes_to = word.readings[0].lemma == "ir"  # "va a hacer frío": an auxiliary
-            if place not in signed and not is_mark and not goes_to and not may_be_left_out(word):
+            courtesy = word.form == "favor" and words[place - 1].form == "por"  # the translator signs it
+            if not (place in signed or is_mark or goes_to or courtesy or may_be_left_out(word)):
                 lost.append((word.text, pair.text))
     assert not lost
 
