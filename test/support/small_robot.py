@@ -37,9 +37,8 @@ class SmallRobot(Node):
         self.received: list[JointTrajectory] = []
         self.statuses: list[ExecutorStatus] = []
         self.path: list[tuple[float, np.ndarray]] = []  # time [s] and positions [rad] of every step
-        self.late = (
-            0.0  # [s] by which a motion came after its stamp at most; the robot makes up for it at once
-        )
+        # By which a motion came after its stamp, at most [s]; the robot makes up for it at once.
+        self.late = 0.0
         self.stand_at_home()
         self._states = self.create_publisher(JointState, "joint_states", 10)
         self.create_subscription(JointTrajectory, "joint_trajectory", self._on_trajectory, 10)
@@ -117,6 +116,7 @@ class Graph:
         del self.robot.statuses[:-1]
         self.robot.received.clear()
         self.robot.path.clear()
+        self.robot.late = 0.0
 
     def _differs(self, parameter: Parameter) -> bool:
         return bool(self.node.get_parameter(parameter.name).value != parameter.value)

@@ -80,7 +80,7 @@ def test_every_sign_can_be_made_left_handed_within_the_limits_and_says_what_is_l
             got = robot.placement(robot.configuration(other.pose(knot)), "left_palm")[:3, 3]
             off = max(off, 1000.0 * float(np.linalg.norm(got - wanted)))
         assert off <= other.quality.get("mirror_error_mm", 0.0) + 0.1, gloss
-        assert off < 25.0, gloss
+        assert off < 23.0, gloss
 
 
 def test_mirroring_twice_gives_the_sign_again(robot: Robot, lut: Lut) -> None:
