@@ -222,17 +222,11 @@ def thumb_gaps(table: HandTable, hands: Array) -> Array:
         Shape (n,).
     """
     thumb_radii, finger_radii = table.hand.thumb_radii, table.hand.finger_radii
-    thumb_starts, thumb_ends = _segments(table.thumb_points(hands[:, 0], hands[:, 1]), thumb_radii)
+    thumb = _segments(table.thumb_points(hands[:, 0], hands[:, 1]), thumb_radii)
     starts, ends = _segments(table.finger_points(hands[:, 2:]), finger_radii)
-    fingers = (len(hands), 1, len(table.hand.fingers), len(finger_radii))
-    thumb = (len(hands), len(thumb_radii), 1, 1)
-    apart = _distances(
-        thumb_starts.reshape(*thumb, 3),
-        thumb_ends.reshape(*thumb, 3),
-        starts.reshape(*fingers, 3),
-        ends.reshape(*fingers, 3),
-    )
-    gaps: Array = (apart - thumb_radii[:, None, None] - finger_radii).min(axis=(1, 2, 3))
+    radii = thumb_radii[:, None] + np.tile(finger_radii, len(table.hand.fingers))
+    fingers = (points.reshape(len(hands), radii.shape[1], 3) for points in (starts, ends))
+    gaps: Array = (_distances(*thumb, *fingers) - radii).min(axis=(1, 2))
     return gaps
 
 
@@ -268,16 +262,31 @@ def _segments(points: Array, radii: Array) -> tuple[Array, Array]:
 
 
 def _distances(starts: Array, ends: Array, other_starts: Array, other_ends: Array) -> Array:
-    """Distances of segments, of shapes (..., 3) that broadcast; see `segment_distances`."""
-    one, other, between = ends - starts, other_ends - other_starts, starts - other_starts
-    a, e, b = (_dots(*pair) for pair in ((one, one), (other, other), (one, other)))
-    c, f = _dots(one, between), _dots(other, between)
+    """Distances of every segment of one set from every one of another; see `segment_distances`.
+
+    Args:
+        starts: Of p segments, n times. Shape (n, p, 3).
+        ends: Of the same.
+        other_starts: Of q segments. Shape (n, q, 3).
+        other_ends: Of the same.
+
+    Returns:
+        Shape (n, p, q).
+    """
+    one, other = ends - starts, other_ends - other_starts
+    a, e = _dots(one, one)[:, :, None], _dots(other, other)[:, None]
+    others, other_begins = np.swapaxes(other, 1, 2), np.swapaxes(other_starts, 1, 2)
+    b = one @ others
+    c = _dots(one, starts)[:, :, None] - one @ other_begins
+    f = starts @ others - _dots(other, other_starts)[:, None]
     determinant = a * e - b * b
     parallel = determinant < 1e-12
     s = np.clip(np.where(parallel, 0.0, (b * f - c * e) / np.where(parallel, 1.0, determinant)), 0.0, 1.0)
     t = np.clip((b * s + f) / e, 0.0, 1.0)
     s = np.clip((b * t - c) / a, 0.0, 1.0)
-    found: Array = np.linalg.norm(between + s[..., None] * one - t[..., None] * other, axis=-1)
+    apart = _dots(starts, starts)[:, :, None] + _dots(other_starts, other_starts)[:, None]
+    squares = apart - 2.0 * (starts @ other_begins) + s * (s * a + 2.0 * (c - t * b)) + t * (t * e - 2.0 * f)
+    found: Array = np.sqrt(np.maximum(squares, 0.0))
     return found
 
 

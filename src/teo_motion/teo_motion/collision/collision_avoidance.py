@@ -12,7 +12,7 @@ import numpy as np
 
 from teo_common.arrays import Array
 from teo_description.hand_geometry import HandTable
-from teo_motion.collision.detours import detours, with_clear_thumbs, with_detour
+from teo_motion.collision.detours import detours, with_clear_thumbs, with_detour, with_thumbs_led
 from teo_motion.collision.motion_clearance import MotionClearance
 from teo_motion.sentence.composition import ARMS, Composition, Route
 from teo_motion.sentence.idle_limb_policy import settle_idle_limbs
@@ -23,6 +23,9 @@ from teo_signs.errors import PlanError
 
 # A sentence may be led around the robot's body by so many postures for each of its signs.
 _DETOURS_PER_TOKEN = 2
+
+# A way of a hand is halved so many times for its thumb [1]: a finger then folds by 10 deg between two points.
+_THUMB_ROUNDS = 3
 
 # Postures that are looked at on a straight line between two others, before its motion is timed [1].
 _LINE_SAMPLES = 9
@@ -85,19 +88,28 @@ class CollisionAvoidance:
             route = settle_idle_limbs(
                 composition, times=times, limits=self._limits, arm_rest=self._arm_rest, cleared=cleared
             )
-            if self._thumbs is not None:
-                route = with_clear_thumbs(route, self._thumbs, self._limits)
             try:
-                return self._led_around(self._timed(route))
+                return self._led_around(self._measured(self._with_clear_thumbs(route)))
             except _CollisionError as collision:
                 more = _idle_arms(composition, collision) - cleared
                 if not more:
                     raise collision.error from None
                 cleared |= more
 
-    def _timed(self, route: Route) -> TimedRoute:
+    def _with_clear_thumbs(self, route: Route) -> TimedRoute:
+        """A route with its motion, in which thumbs keep out of fingers."""
+        if self._thumbs is None:
+            return self._timing.timed(route)
+        timed = self._timing.timed(with_clear_thumbs(route, self._thumbs, self._limits))
+        for _ in range(_THUMB_ROUNDS):
+            led = with_thumbs_led(timed, self._thumbs, self._limits)
+            if led is timed.route:
+                break
+            timed = self._timing.timed(led)
+        return timed
+
+    def _measured(self, timed: TimedRoute) -> TimedRoute:
         """A route with its motion, in which the nearest approach of parts is measured."""
-        timed = self._timing.timed(route)
         if self._motion_clearance is None:
             return timed
         nearest = self._motion_clearance.nearest(timed.plan.samples)
@@ -136,7 +148,7 @@ class CollisionAvoidance:
                 other = route
                 for posture in reversed(postures):
                     other = with_detour(other, half_way, posture, self._arms)
-                found = self._timed(other)
+                found = self._measured(self._timing.timed(other))
                 round_here = range(first_step, last_step + len(postures))
                 if self._is_clear(found.plan) or _nearest_step(found) not in round_here:
                     return found
