@@ -16,7 +16,7 @@ from teo_common.errors import CodedError
 from teo_description.robot import Robot
 from teo_sign_capture.cli.options import LanguageCode
 from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
-from teo_signs.errors import LutError
+from teo_signs.errors import LutError, PlanError
 from teo_signs.look_up_table import Lut
 from teo_signs.sign import Sign
 from teo_signs.sign_file import save_sign
@@ -112,9 +112,10 @@ def capture_scores(
     language: LanguageCode = DEFAULT_LANGUAGE,
     replace: _Replace = False,
 ) -> None:
-    """Bring sign scores, written descriptions of signs, onto TEO."""
+    """Bring sign scores, written descriptions of signs, onto TEO; what it cannot sign alone is left out."""
     from teo_sign_authoring.notation.score_file import read_scores
     from teo_sign_authoring.notation.score_retarget import score_sign
+    from teo_sign_authoring.transfer.language_signs import played_alone
 
     robot = Robot.load()
     try:
@@ -131,8 +132,10 @@ def capture_scores(
     def signs() -> Iterator[Sign]:
         for gloss in only or found:
             try:
-                yield score_sign(robot, found[gloss], language=signed.code)
-            except LutError as error:
+                sign = score_sign(robot, found[gloss], language=signed.code)
+                played_alone(robot, sign)
+                yield sign
+            except (LutError, PlanError) as error:
                 failed.append(gloss)
                 _errors.print(f"{error.code}: {error}", soft_wrap=True)
 

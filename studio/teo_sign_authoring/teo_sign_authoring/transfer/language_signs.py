@@ -253,10 +253,13 @@ def played_alone(robot: Robot, sign: Sign) -> Plan:
     """What the planner makes of a sign from rest to rest.
 
     Raises:
-        PlanError: It cannot be played.
+        PlanError: It cannot be played, or one of its forms cannot.
     """
     planner = Planner({sign.gloss: sign}, robot=robot, least_standing="sketched")
-    return planner.plan([Token(gloss=sign.gloss, kind=Kind[sign.kind.upper()])])
+    citation = Token(gloss=sign.gloss, kind=Kind[sign.kind.upper()])
+    for inflection in sign.forms:
+        planner.plan([replace(citation, inflection=inflection)])
+    return planner.plan([citation])
 
 
 @functools.cache
