@@ -18,7 +18,6 @@ from teo_sign_translator.output.sign_choice import (
     INCORPORATED_NUMBERS,
     Incorporated,
     SignChooser,
-    may_be_generalised,
     read_incorporated,
     with_numbers_incorporated,
 )
@@ -110,7 +109,7 @@ class Translator:
         *,
         beam_width: int = DEFAULT_BEAM_WIDTH,
         min_confidence: float = DEFAULT_MIN_CONFIDENCE,
-        substitutes: Substitutes = Substitutes.HYPERNYM,
+        substitutes: Substitutes = Substitutes.PARAPHRASE,
         language: str = DEFAULT_LANGUAGE,
     ) -> Translator:
         """Load a model and its language's data.
@@ -213,13 +212,10 @@ class Translator:
             if isinstance(each, TranslationError):
                 answers.append(each)
                 continue
-            of_text = next(translated)
-            words = (word for sentence in of_text for word in sentence.output_words)
-            blurred = self._chooser.blurred(words, signs)
             sentences = [
                 sentence
-                for translated_sentence in of_text
-                for sentence in self._finish(translated_sentence, each.cleaned, signs, blurred)
+                for translated_sentence in next(translated)
+                for sentence in self._finish(translated_sentence, each.cleaned, signs)
             ]
             answers.append(
                 Translation(
@@ -233,11 +229,7 @@ class Translator:
         return answers
 
     def _finish(
-        self,
-        translated_sentence: TranslatedSentence,
-        text: str,
-        signs: Set[str] | None,
-        blurred: Set[str],
+        self, translated_sentence: TranslatedSentence, text: str, signs: Set[str] | None
     ) -> list[Sentence]:
         """One sentence; several if it has more tokens than a message can hold."""
         clauses = translated_sentence.clauses
@@ -246,8 +238,7 @@ class Translator:
         if unmarked and translated_sentence.recognised is not None:
             kind = translated_sentence.recognised
         signed, dropped = without_carried(translated_sentence.output_words, self._spelling)
-        general = may_be_generalised(clauses, kind, self._rules)
-        chosen = self._chooser.choose(signed, signs, general=general, blurred=blurred)
+        chosen = self._chooser.choose(signed, signs)
         output_words = with_numbers_incorporated(chosen, signs, self._incorporated)
         parts = [number_tokens(part) for part in divide(output_words, MAX_SENTENCE_TOKENS)]
         return [
