@@ -77,7 +77,6 @@ ORIGINS = {
     SignToken.ORIGIN_WORD_LIST: "word list",
     SignToken.ORIGIN_PAUSE: "",
     SignToken.ORIGIN_PARAPHRASE: "paraphrase",
-    SignToken.ORIGIN_HYPERNYM: "hypernym",
     SignToken.ORIGIN_DRAFT: "draft",
 }
 
@@ -140,11 +139,10 @@ class Spectator(Node):
 def captioned(token: SignToken) -> str:
     """Give a token's gloss, and the word that it stands for where it is not that word's own sign.
 
-    `~` says that it is one of several signs for the word, `<` something more general, `-` a letter of it.
+    `~` says that it is one of several signs for the word, `-` a letter of it.
     """
     marks = {
         SignToken.ORIGIN_PARAPHRASE: "~",
-        SignToken.ORIGIN_HYPERNYM: "<",
         SignToken.ORIGIN_SPELLED: "-",
     }
     mark = marks.get(token.origin)

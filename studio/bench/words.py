@@ -94,7 +94,7 @@ def _texts(what: str, texts: Sequence[str], signs: Set[str]) -> list[Figure]:
         f"with {allowed.name.lower()} {_share(counted.signed, counted.words)}"
         for allowed, counted in by_substitutes.items()
     )
-    ours = by_substitutes[Substitutes.HYPERNYM]
+    ours = by_substitutes[Substitutes.PARAPHRASE]
     spanish = sum(len(re.findall(r"\w+", text)) for text in texts)
     return [
         Figure(f"{what}: words signed", f"lemmas by name {_share(looked_up, len(lemmas))}; ours: {steps}"),
@@ -126,7 +126,7 @@ def _frequent_lemmas(signs: Set[str]) -> Figure:
     for lemma, share in first.items():
         word = lexical(lemma.upper(), (lemma,), 1.0)
         way = "named" if lemma.upper() in signs else "letters"
-        if way == "letters" and chooser.choose([word], signs, general=True)[0].kind is OutputKind.LEXICAL:
+        if way == "letters" and chooser.choose([word], signs)[0].kind is OutputKind.LEXICAL:
             way = "substituted"
         shown[way] += share
         types[way] += 1

@@ -55,6 +55,13 @@ def figure(image):
     return np.abs(image.astype(int) - render_pose({}, away).astype(int)).sum(axis=2) > 6
 
 
+def test_a_camera_knows_where_its_picture_shows_a_point():
+    points = np.array([[0.4, 0.0, 0.3], [0.5, -0.3, 0.6], [0.2, 0.25, 0.1]])
+    for camera in (each for each in CAMERAS.values() if each.follows is None):
+        shown = [pixel(camera, point) for point in points]
+        np.testing.assert_allclose(camera.pixels(points), shown, atol=0.5)
+
+
 def test_a_picture_has_the_size_of_the_camera_and_shows_something(renderer):
     for name, camera in CAMERAS.items():
         image = renderer.render({}, name)

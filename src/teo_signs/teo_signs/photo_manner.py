@@ -18,14 +18,12 @@ from PIL import Image as PILImage
 from PIL import ImageOps, UnidentifiedImageError
 
 from teo_description.humanoid import SIDES, Side
-from teo_description.pictures.rendering import Camera, Image, camera_named, film_strip, save_png
+from teo_description.pictures.rendering import Image, camera_named, film_strip, save_png
 from teo_description.robot import Robot
 from teo_signs.errors import LutError
-from teo_signs.pictures import FRONT, pose_at, render_sign
+from teo_signs.pictures import FRONT, SIZE, pose_at, render_sign
 from teo_signs.sign import Sign
 
-# Width and height of a cell [pixel].
-_SIZE = (600, 600)
 # Pairs of a photograph and a robot beside each other.
 _COLUMNS = 3
 
@@ -49,14 +47,13 @@ def in_one_picture(robot: Robot, sign: Sign) -> Image:
         robot: The sign's robot.
         sign: The sign.
     """
-    camera = camera_named(FRONT, robot.humanoid).sized(*_SIZE)
-    begins, ends = render_sign(sign, 0.0, size=_SIZE), render_sign(sign, sign.duration, size=_SIZE)
+    camera = camera_named(FRONT, robot.humanoid).sized(*SIZE)
+    begins, ends = render_sign(sign, 0.0), render_sign(sign, sign.duration)
     picture: Image = np.ascontiguousarray(cv2.addWeighted(begins, _BEGINNING, ends, 1.0 - _BEGINNING, 0.0))
     for side in SIDES:
-        way = _project(camera, _palm_way(robot, sign, side))
-        _draw_way(picture, way)
+        _draw_way(picture, camera.pixels(_palm_way(robot, sign, side)))
     for point in _touches(robot, sign):
-        _draw_rays(picture, _project(camera, point[None])[0])
+        _draw_rays(picture, camera.pixels(point[None])[0])
     return picture
 
 
@@ -89,7 +86,7 @@ def _picture(file: Path) -> Image:
         raise LutError("bad_picture", f"{file}: expected a picture (PNG, JPEG, ...), got: {error}") from error
     on_white = PILImage.new("RGBA", upright.size, "white")
     on_white.alpha_composite(upright)
-    return np.asarray(ImageOps.pad(on_white.convert("RGB"), _SIZE, color="white"))
+    return np.asarray(ImageOps.pad(on_white.convert("RGB"), SIZE, color="white"))
 
 
 def _moments(sign: Sign) -> Iterator[dict[str, float]]:
@@ -114,16 +111,6 @@ def _touches(robot: Robot, sign: Sign) -> Iterator[NDArray[np.float64]]:
                 nearest[pair] = contact.distance, (contact.first_point + contact.second_point) / 2.0
     for _, point in nearest.values():
         yield point
-
-
-def _project(camera: Camera, points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Pixels of points in ``base_link``. Shape (n, 2)."""
-    view = camera.from_world(np.zeros(3))
-    seen = points @ view[:3, :3].T + view[:3, 3]
-    width, height = camera.size
-    scale = height / 2.0 / np.tan(camera.field_of_view / 2.0)
-    across = seen[:, :2] / -seen[:, 2:]
-    return np.column_stack([width / 2.0 + scale * across[:, 0], height / 2.0 - scale * across[:, 1]])
 
 
 def _draw_way(picture: Image, way: NDArray[np.float64]) -> None:

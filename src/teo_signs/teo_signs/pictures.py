@@ -30,8 +30,8 @@ FRAME_RATE = 25.0
 # of the robot's description.
 FRONT, CLOSE_UP = "sign", "sign_hand"
 
-# Width and height of a picture [pixel].
-_SIZE = (480, 480)
+#: Width and height of a picture [pixel].
+SIZE = (480, 480)
 
 _STRIP_MOMENTS = 6
 
@@ -56,7 +56,7 @@ def pose_at(sign: Sign, time: float) -> dict[str, float]:
     }
 
 
-def render_sign(sign: Sign, time: float, camera: str = FRONT, size: tuple[int, int] = _SIZE) -> Image:
+def render_sign(sign: Sign, time: float, camera: str = FRONT, size: tuple[int, int] = SIZE) -> Image:
     """Draw the sign's robot at a time from the sign's start [s]."""
     view = camera_named(camera, load_humanoid(sign.robot)).sized(*size)
     return render_pose(pose_at(sign, time), view, robot=sign.robot)

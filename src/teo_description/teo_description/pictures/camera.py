@@ -85,6 +85,19 @@ class Camera:
         matrix[:3, 3] = -matrix[:3, :3] @ eye
         return matrix
 
+    def pixels(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Where a camera that follows no frame sees points: pixels from the upper left corner. Shape (n, 2).
+
+        Args:
+            points: In ``base_link``, before the camera [m]. Shape (n, 3).
+        """
+        view = self.from_world(np.zeros(3))
+        seen = points @ view[:3, :3].T + view[:3, 3]
+        width, height = self.size
+        scale = height / 2.0 / math.tan(self.field_of_view / 2.0)
+        across = scale * seen[:, :2] / -seen[:, 2:]
+        return np.column_stack([width / 2.0 + across[:, 0], height / 2.0 - across[:, 1]])
+
 
 def cameras(humanoid: Humanoid) -> Mapping[str, Camera]:
     """The views of a robot that have a name."""

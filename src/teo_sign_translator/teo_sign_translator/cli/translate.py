@@ -77,7 +77,7 @@ def translate(
             help="What may be signed for a word without a sign, one of "
             f"{', '.join(each.name.lower() for each in Substitutes)}; each allows those before it too."
         ),
-    ] = Substitutes.HYPERNYM.name.lower(),
+    ] = Substitutes.PARAPHRASE.name.lower(),
     list_models: Annotated[
         bool, typer.Option("--list-models", help="Write the names of the language's models and stop.")
     ] = False,

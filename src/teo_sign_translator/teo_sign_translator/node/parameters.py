@@ -66,9 +66,9 @@ PARAMETERS = (
     ),
     ParameterRow(
         name="substitutes",
-        default=Substitutes.HYPERNYM.name.lower(),  # letters are slow to sign and hard to read
-        description="What may be signed for a word without a sign, before it is spelled: none, synonym, "
-        "paraphrase or hypernym; each allows those before it too.",
+        default=Substitutes.PARAPHRASE.name.lower(),  # letters are slow to sign and hard to read
+        description="What may be signed for a word without a sign, before it is spelled: none, synonym "
+        "or paraphrase; each allows those before it too.",
     ),
     AUTOSTART,
 )

@@ -5,42 +5,16 @@
 from __future__ import annotations
 
 import re
-from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import replace
 from pathlib import Path
 
-from teo_common.text_folding import fold
 from teo_sign_translator.data_files import invalid_line, read_rows
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.output.output_words import OutputWord, Spelling, spelled
 from teo_sign_translator.output.substitutes import SIGN_NAME, SubstituteLists, Substitutes
 from teo_sign_translator.output.translation import Kind, Origin
-from teo_sign_translator.text.reading import Clause, SentenceType, is_negated
-from teo_sign_translator.text.rules import TextRules
-
-
-def may_be_generalised(clauses: Sequence[Clause], kind: SentenceType, rules: TextRules) -> bool:
-    """Whether any word of a sentence may give way to a more general one, and it stays true.
-
-    "I have a dog" entails "I have an animal"; "I have no dog" does not entail "I have no animal". A word may
-    be generalised where its place is upward monotone: not under negation, `sin`, `si` or a comparison, not
-    among all of a kind or the only ones (`todos`, `solo`), not of a kind as such ("los perros ladran", "me
-    gustan las rosas"), and not in what is asked or told to be done, which is neither true nor false. One such
-    word anywhere in the sentence is enough: its scope is not determined.
-
-    Args:
-        clauses: Of the sentence.
-        kind: Its type.
-        rules: Of its language.
-    """
-    if kind is not SentenceType.STATEMENT or is_negated(clauses, rules):
-        return False
-    listed = rules.generality
-    words = [fold(word.lower) for clause in clauses for word in clause.words]
-    return not any(word in listed.strict or word.startswith(listed.of_kinds) for word in words)
-
 
 # Tags of forms that name the same thing as their dictionary form: the feminine, the participle.
 _OF_ONE_WORD = re.compile(r"[NA]:fs|V:part:.*")
@@ -116,7 +90,7 @@ class SignChooser:
         self,
         lists: SubstituteLists,
         morphology: Morphology | None,
-        substitutes: Substitutes = Substitutes.HYPERNYM,
+        substitutes: Substitutes = Substitutes.PARAPHRASE,
         spelling: Spelling | None = None,
     ) -> None:
         """Take the ways from a gloss without a sign to one that has one.
@@ -132,53 +106,17 @@ class SignChooser:
         self._morphology = morphology
         self.substitutes = substitutes
 
-    def choose(
-        self,
-        output_words: Iterable[OutputWord],
-        signs: Set[str] | None,
-        *,
-        general: bool = False,
-        blurred: Set[str] = frozenset(),
-    ) -> list[OutputWord]:
+    def choose(self, output_words: Iterable[OutputWord], signs: Set[str] | None) -> list[OutputWord]:
         """Make output words of what has signs, in the same order.
 
         Args:
             output_words: Glosses, letters, numbers, pauses.
             signs: Glosses that have a sign of their own. None if that is not known: then every gloss that
                 could have one is kept, for the executor to look up, and names are spelled.
-            general: Whether the sentence stays true with something more general in a word's place.
-            blurred: More general signs that are not used all the same: those of `blurred` of its text.
         """
-        return [
-            _shows(chosen, word)
-            for word in output_words
-            for chosen in self._choose(word, signs, blurred if general else None)
-        ]
+        return [_shows(chosen, word) for word in output_words for chosen in self._choose(word, signs)]
 
-    def blurred(self, output_words: Iterable[OutputWord], signs: Set[str] | None) -> frozenset[str]:
-        """More general signs by which two things of a text would become one.
-
-        A wolf and three pigs that all become ANIMAL are nobody's story any more.
-
-        Args:
-            output_words: Of all sentences of the text.
-            signs: Glosses that have a sign; see `choose`.
-        """
-        words = list(output_words)
-        if signs is None:
-            return frozenset()
-        said = {word.signs[0] for word in words if word.kind is Kind.LEXICAL and word.signs}
-        shown: defaultdict[str, set[str]] = defaultdict(set)
-        for word in words:
-            for chosen in self._choose(word, signs, frozenset()):
-                if chosen.origin is Origin.HYPERNYM:
-                    shown[chosen.signs[0]].add(word.signs[0])
-        return frozenset(above for above, glosses in shown.items() if len(glosses) > 1 or above in said)
-
-    def _choose(
-        self, output_word: OutputWord, signs: Set[str] | None, blurred: Set[str] | None
-    ) -> Sequence[OutputWord]:
-        """What shows a word; `blurred` is None where nothing more general may."""
+    def _choose(self, output_word: OutputWord, signs: Set[str] | None) -> Sequence[OutputWord]:
         if output_word.kind is not Kind.LEXICAL or not output_word.signs:
             return [output_word]
         (gloss,) = output_word.signs
@@ -195,14 +133,9 @@ class SignChooser:
         said = self._paraphrase(gloss, signs)
         if said:
             return [replace(output_word, signs=(part,), origin=Origin.PARAPHRASE) for part in said]
-        above = None if blurred is None else self._hypernym(gloss, signs)
-        if above is not None and blurred is not None and above not in blurred:
-            return [replace(output_word, signs=(above,), origin=Origin.HYPERNYM)]
         parts = [part for part in gloss.split("_") if part]
         if len(parts) > 1:
-            return [
-                c for part in parts for c in self._choose(replace(output_word, signs=(part,)), signs, blurred)
-            ]
+            return [c for part in parts for c in self._choose(replace(output_word, signs=(part,)), signs)]
         return self._letters(output_word)
 
     def _same_sign(self, gloss: str, signs: Set[str]) -> tuple[str, Origin] | None:
@@ -247,17 +180,6 @@ class SignChooser:
                 if len(said) == len(row):
                     return said
         return ()
-
-    def _hypernym(self, gloss: str, signs: Set[str]) -> str | None:
-        """The sign of the closest thing that is more general."""
-        if self.substitutes < Substitutes.HYPERNYM:
-            return None
-        for known in (gloss, *self._lemmas(gloss), *self._lists.synonyms.get(gloss, ())):
-            for above in self._lists.hypernyms.get(known, ()):
-                found = self._same_sign(above, signs)
-                if found is not None:
-                    return found[0]
-        return None
 
     def _lemmas(self, gloss: str) -> tuple[str, ...]:
         """Other glosses of the same word: AMIGO for AMIGA, ABRIR for ABIERTO.

@@ -79,7 +79,7 @@ def _entries(folder: Path, least_standing: str) -> frozenset[str]:
 
 
 # A gloss is shown by another sign than its own.
-_SUBSTITUTES = (Origin.LEMMA, Origin.SYNONYM, Origin.PARAPHRASE, Origin.HYPERNYM)
+_SUBSTITUTES = (Origin.LEMMA, Origin.SYNONYM, Origin.PARAPHRASE)
 
 
 class Showing(StrEnum):

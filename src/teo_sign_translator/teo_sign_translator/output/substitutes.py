@@ -26,8 +26,6 @@ class Substitutes(IntEnum):
     SYNONYM = 1
     #: A general sign and one that narrows it.
     PARAPHRASE = 2
-    #: The sign of something more general, where the sentence stays true.
-    HYPERNYM = 3
 
     @classmethod
     def named(cls, name: str) -> Substitutes:
@@ -50,16 +48,14 @@ class SubstituteLists:
     Attributes:
         synonyms: For each gloss others that the same sign is known by, in the order of the lists.
         paraphrases: For each gloss the rows of glosses that say it together, the best first.
-        hypernyms: For each gloss what is more general, the closest first.
     """
 
     synonyms: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     paraphrases: Mapping[str, tuple[tuple[str, ...], ...]] = field(default_factory=dict)
-    hypernyms: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     @classmethod
     def load(cls, folder: Path | None = None) -> SubstituteLists:
-        """Read `synonyms.tsv`, `word_families.tsv`, `paraphrases.tsv` and `hypernyms.tsv`.
+        """Read `synonyms.tsv`, `word_families.tsv` and `paraphrases.tsv`.
 
         Args:
             folder: The language's text folder; by default that of the default language.
@@ -75,11 +71,7 @@ class SubstituteLists:
             near = [*own.get(gloss, ()), *families.get(gloss, ())]
             far = [other for each in near for other in (*own.get(each, ()), *families.get(each, ()))]
             synonyms[gloss] = tuple(other for other in dict.fromkeys([*near, *far]) if other != gloss)
-        return cls(
-            synonyms,
-            read_paraphrases(folder / "paraphrases.tsv"),
-            read_hypernyms(folder / "hypernyms.tsv"),
-        )
+        return cls(synonyms, read_paraphrases(folder / "paraphrases.tsv"))
 
 
 def read_synonyms(path: Path) -> dict[str, tuple[str, ...]]:
@@ -114,28 +106,3 @@ def read_paraphrases(path: Path) -> dict[str, tuple[tuple[str, ...], ...]]:
             raise invalid_line(path, number, expected, f"'{gloss}', '{said}'")
         found[gloss] = (*known, parts)
     return found
-
-
-def read_hypernyms(path: Path) -> dict[str, tuple[str, ...]]:
-    """For each gloss what is more general, the closest first: ROSAL is PLANTA, and what that is.
-
-    Raises:
-        TranslationError: "invalid_data", with file and line, also where one would be its own.
-    """
-    direct: dict[str, str] = {}
-    for number, (listed, above) in read_rows(path, columns=2):
-        for gloss in (each.strip() for each in listed.split(",")):
-            valid = SIGN_NAME.fullmatch(gloss) and SIGN_NAME.fullmatch(above)
-            if not valid or gloss in direct or gloss in _chain(direct, above):
-                expected = "glosses, each listed once, and one that is more general than all of them"
-                raise invalid_line(path, number, expected, f"'{gloss}', '{above}'")
-            direct[gloss] = above
-    return {gloss: _chain(direct, above) for gloss, above in direct.items()}
-
-
-def _chain(direct: Mapping[str, str], gloss: str) -> tuple[str, ...]:
-    """A gloss and all that is more general."""
-    chain = [gloss]
-    while chain[-1] in direct:
-        chain.append(direct[chain[-1]])
-    return tuple(chain)

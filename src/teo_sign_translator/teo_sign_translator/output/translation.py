@@ -35,7 +35,6 @@ class Origin(IntEnum):
     WORD_LIST = 7
     PAUSE = 8
     PARAPHRASE = 9
-    HYPERNYM = 10
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

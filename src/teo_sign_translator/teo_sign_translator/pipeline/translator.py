@@ -14,11 +14,11 @@ from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.model_files import read_card
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.output.output_words import Spelling, divide, number_tokens, without_carried
+from teo_sign_translator.output.senses import SENSES, Sense, read_senses, with_senses
 from teo_sign_translator.output.sign_choice import (
     INCORPORATED_NUMBERS,
     Incorporated,
     SignChooser,
-    may_be_generalised,
     read_incorporated,
     with_numbers_incorporated,
 )
@@ -79,6 +79,7 @@ class Translator:
         rules: TextRules | None = None,
         spelling: Spelling | None = None,
         incorporated: Incorporated | None = None,
+        senses: Sequence[Sense] = (),
         *,
         min_confidence: float = DEFAULT_MIN_CONFIDENCE,
         language: str = DEFAULT_LANGUAGE,
@@ -91,6 +92,7 @@ class Translator:
             rules: How its texts are read; by default the default language's.
             spelling: Its alphabet; by default the default language's.
             incorporated: Glosses that take up a number; None for none.
+            senses: What is signed where a gloss's sign says another sense.
             min_confidence: A sentence that holds a token less sure than this is called uncertain, 0 to 1.
             language: Code of the sign language that it translates into.
         """
@@ -100,6 +102,7 @@ class Translator:
         self._rules = rules or TextRules.load()
         self._spelling = spelling or Spelling.load()
         self._incorporated = incorporated or {}
+        self._senses = senses
         self.min_confidence = min_confidence
 
     @classmethod
@@ -110,7 +113,7 @@ class Translator:
         *,
         beam_width: int = DEFAULT_BEAM_WIDTH,
         min_confidence: float = DEFAULT_MIN_CONFIDENCE,
-        substitutes: Substitutes = Substitutes.HYPERNYM,
+        substitutes: Substitutes = Substitutes.PARAPHRASE,
         language: str = DEFAULT_LANGUAGE,
     ) -> Translator:
         """Load a model and its language's data.
@@ -158,6 +161,7 @@ class Translator:
             rules,
             spelling,
             incorporated,
+            read_senses(data.text / SENSES),
             min_confidence=min_confidence,
             language=data.code,
         )
@@ -213,13 +217,10 @@ class Translator:
             if isinstance(each, TranslationError):
                 answers.append(each)
                 continue
-            of_text = next(translated)
-            words = (word for sentence in of_text for word in sentence.output_words)
-            blurred = self._chooser.blurred(words, signs)
             sentences = [
                 sentence
-                for translated_sentence in of_text
-                for sentence in self._finish(translated_sentence, each.cleaned, signs, blurred)
+                for translated_sentence in next(translated)
+                for sentence in self._finish(translated_sentence, each.cleaned, signs)
             ]
             answers.append(
                 Translation(
@@ -233,11 +234,7 @@ class Translator:
         return answers
 
     def _finish(
-        self,
-        translated_sentence: TranslatedSentence,
-        text: str,
-        signs: Set[str] | None,
-        blurred: Set[str],
+        self, translated_sentence: TranslatedSentence, text: str, signs: Set[str] | None
     ) -> list[Sentence]:
         """One sentence; several if it has more tokens than a message can hold."""
         clauses = translated_sentence.clauses
@@ -246,8 +243,8 @@ class Translator:
         if unmarked and translated_sentence.recognised is not None:
             kind = translated_sentence.recognised
         signed, dropped = without_carried(translated_sentence.output_words, self._spelling)
-        general = may_be_generalised(clauses, kind, self._rules)
-        chosen = self._chooser.choose(signed, signs, general=general, blurred=blurred)
+        meant = with_senses(signed, clauses, self._senses, signs, self._spelling)
+        chosen = self._chooser.choose(meant, signs)
         output_words = with_numbers_incorporated(chosen, signs, self._incorporated)
         parts = [number_tokens(part) for part in divide(output_words, MAX_SENTENCE_TOKENS)]
         return [

@@ -184,19 +184,6 @@ class GlossNames:
 
 
 @dataclass(frozen=True)
-class GeneralityWords:
-    """Words that tell whether a sentence stays true with a more general word; `generality` in the file.
-
-    Attributes:
-        strict: Words, folded, any of which makes a sentence one that may not stay true.
-        of_kinds: Beginnings of folded verbs whose object is a kind, or need not exist.
-    """
-
-    strict: frozenset[str]
-    of_kinds: tuple[str, ...]
-
-
-@dataclass(frozen=True)
 class TextRules:
     """All of it.
 
@@ -206,7 +193,6 @@ class TextRules:
         sentences: Words that tell kinds of sentence.
         words: Words that are read in a way of their own.
         glosses: Names of glosses.
-        generality: Words that tell whether a word may give way to a more general one.
     """
 
     expressions: Expressions
@@ -214,7 +200,6 @@ class TextRules:
     sentences: SentenceWords
     words: SpecialWords
     glosses: GlossNames
-    generality: GeneralityWords
 
     @classmethod
     @cache
@@ -233,7 +218,6 @@ class TextRules:
             "sentences": SentenceWords,
             "words": SpecialWords,
             "glosses": GlossNames,
-            "generality": GeneralityWords,
         }
         read = read_sections(folder / _FILE, sections)
         return cls(Expressions.load(folder / "expressions.tsv"), **read)

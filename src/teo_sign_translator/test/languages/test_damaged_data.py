@@ -15,9 +15,10 @@ from teo_sign_training.corpus.grammar_file import load_grammar
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.morphology.conjugation import Conjugations
+from teo_sign_translator.output.senses import read_senses
 from teo_sign_translator.output.sign_choice import read_incorporated
 from teo_sign_translator.output.sign_coverage import read_signs
-from teo_sign_translator.output.substitutes import read_hypernyms, read_paraphrases, read_synonyms
+from teo_sign_translator.output.substitutes import read_paraphrases, read_synonyms
 from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.completeness import FunctionWords, PipelineWords, read_gloss_words
 from teo_sign_translator.text.rules import Expressions, TextRules
@@ -81,11 +82,8 @@ def test_the_file_and_the_field_are_named(text: Path, file: str, old: str, new: 
             read_paraphrases,
             ["CAJERO\tcajero", "CAJERO\tCAJERO DINERO", "CAJERO\tDINERO\nCAJERO\tDINERO", "CAJERO"],
         ),
-        (
-            read_hypernyms,
-            ["ROSA\tFLOR\nROSA\tPLANTA", "ROSA\tFLOR\nFLOR\tROSA", "ROSA\tROSA", "rosa\tFLOR"],
-        ),
         (read_incorporated, ["MES\tDOS\tDOS_MESES", "mes\t2\tDOS_MESES", "MES\t2\tA\nMES\t2\tB"]),
+        (read_senses, ["CUARTO\tBAÑO", "cuarto\tBAÑO\tbaño", "CUARTO\t-\t(de"]),
         (Conjugations, ["amar\to as a\tam", "amar\to as"]),
         (read_signs, ["HOLA ADIÓS", "A-N-A", "12"]),
     ],

@@ -31,9 +31,9 @@ def _word(gloss: str, *, is_name: bool = False) -> OutputWord:
     return lexical(gloss, ("x",), 0.8, is_name=is_name)
 
 
-def _chosen(word: OutputWord | str, *signs: str, general: bool = True) -> list[tuple[str, Origin]]:
+def _chosen(word: OutputWord | str, *signs: str) -> list[tuple[str, Origin]]:
     words = [_word(word) if isinstance(word, str) else word]
-    return [(" ".join(each.signs), each.origin) for each in CHOOSER.choose(words, {*signs}, general=general)]
+    return [(" ".join(each.signs), each.origin) for each in CHOOSER.choose(words, {*signs})]
 
 
 @pytest.mark.parametrize(
@@ -47,13 +47,12 @@ def _chosen(word: OutputWord | str, *signs: str, general: bool = True) -> list[t
         ("CANSANCIO", "CANSADO", "CANSADO", Origin.SYNONYM),
         ("OPERACIÓN", "OPERAR", "OPERAR", Origin.SYNONYM),
         ("FREGAR", "FREGADO", "FREGADO", Origin.SYNONYM),
-        ("YEGUA", "CABALLO", "CABALLO", Origin.HYPERNYM),
+        ("YEGUA", "CABALLO", "Y E G U A", Origin.SPELLED),  # nothing more general
         ("ROSA", "FLOR", "R O S A", Origin.SPELLED),  # that it is a flower says nothing
         ("CUENTA", "CONTAR", "C U E N T A", Origin.SPELLED),  # the bill is not what one counts
         ("DEBERES", "DEBER", "D E B E R E S", Origin.SPELLED),
         ("SALA", "SALADO", "S A L A", Origin.SPELLED),
         ("PESCAR", "PESCADO", "P E S C A R", Origin.SPELLED),  # a fish is not fishing
-        ("CABALLO", "YEGUA", "C A B A LL O", Origin.SPELLED),  # never downward
         ("CAJERO", "DINERO", "C A J E R O", Origin.SPELLED),  # all parts of a paraphrase or none
         ("LÁPIZ", "COCHE", "L A P I Z", Origin.SPELLED),
     ],
@@ -71,20 +70,6 @@ def test_several_signs_show_a_gloss_together() -> None:
     ]
     assert [gloss for gloss, _ in _chosen("PEDIATRA", "DOCTOR", "CRÍO")] == ["DOCTOR", "CRÍO"]  # by synonyms
     assert _chosen("POR_FAVOR", "POR") == [("POR", Origin.MODEL), ("F A V O R", Origin.SPELLED)]
-
-
-def test_nothing_more_general_is_taken_where_the_sentence_would_change() -> None:
-    assert _chosen("YEGUA", "CABALLO", general=False) == [("Y E G U A", Origin.SPELLED)]
-
-
-def test_things_of_one_text_that_would_become_the_same_are_blurred() -> None:
-    mare, foal, horse = (_word(gloss) for gloss in ("YEGUA", "POTRO", "CABALLO"))
-    signs = {"CABALLO"}
-    assert CHOOSER.blurred([mare, mare], signs) == set()
-    assert CHOOSER.blurred([mare, foal], signs) == CHOOSER.blurred([mare, horse], signs) == signs
-    assert CHOOSER.blurred([mare, foal], {"CABALLO", "YEGUA"}) == set()
-    chosen = CHOOSER.choose([mare], signs, general=True, blurred=signs)
-    assert [word.kind for word in chosen] == [Kind.LETTER]
 
 
 def test_a_name_is_spelled_unless_it_has_a_sign_of_its_own() -> None:
@@ -110,17 +95,17 @@ def test_letters_share_the_confidence_and_the_words_of_their_gloss() -> None:
 @pytest.mark.parametrize("allowed", list(Substitutes))
 def test_each_step_can_be_switched_off(allowed: Substitutes) -> None:
     chooser = SignChooser(LISTS, MORPHOLOGY, allowed)
-    signs = {"MEDICINA", "DINERO", "MÁQUINA", "CABALLO"}
-    glosses = ("MEDICACIÓN", "CAJERO", "YEGUA")
+    signs = {"MEDICINA", "DINERO", "MÁQUINA"}
+    glosses = ("MEDICACIÓN", "CAJERO")
     words = [lexical(gloss, (gloss,), 0.8) for gloss in glosses]
-    origins = {word.origin for word in chooser.choose(words, signs, general=True)} - {Origin.SPELLED}
-    steps = (Origin.SYNONYM, Origin.PARAPHRASE, Origin.HYPERNYM)
+    origins = {word.origin for word in chooser.choose(words, signs)} - {Origin.SPELLED}
+    steps = (Origin.SYNONYM, Origin.PARAPHRASE)
     assert origins == {*steps[: int(allowed)]}
 
 
 def test_unknown_substitutes_are_refused_with_those_that_there_are() -> None:
     assert Substitutes.named("paraphrase") is Substitutes.PARAPHRASE
-    with pytest.raises(TranslationError, match="none, synonym, paraphrase, hypernym") as error:
+    with pytest.raises(TranslationError, match="none, synonym, paraphrase") as error:
         Substitutes.named("all")
     assert error.value.code == "unknown_substitutes"
 
@@ -128,8 +113,6 @@ def test_unknown_substitutes_are_refused_with_those_that_there_are() -> None:
 def test_the_lists_are_long_enough_to_matter_and_lead_nowhere_back() -> None:
     assert len(LISTS.synonyms) > 1000
     assert len(LISTS.paraphrases) > 200
-    assert len(LISTS.hypernyms) > 50
-    assert all(gloss not in above for gloss, above in LISTS.hypernyms.items())
     assert all(gloss not in others for gloss, others in LISTS.synonyms.items())
 
 

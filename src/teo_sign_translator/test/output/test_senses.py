@@ -1,0 +1,65 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""A sign is made only for the sense of a word that it says; what its table lacks is spelled."""
+
+from __future__ import annotations
+
+import pytest
+
+from teo_sign_translator.output.translation import Kind
+from teo_sign_translator.pipeline.translator import Translator
+
+TRANSLATOR = Translator.load()
+# Text, glosses that are signed, glosses that are not.
+CASES = [
+    ("Mi clase acaba a las tres y media.", "Y_MEDIA", "MEDIO"),
+    ("Quiero media manzana.", "MEDIO", "Y_MEDIA"),
+    ("La media está rota.", "", "MEDIO Y_MEDIA"),
+    ("La clase empieza a las cuatro y cuarto.", "Y_CUARTO", "CUARTO"),
+    ("Salgo a las ocho menos cuarto.", "MENOS_CUARTO", "MENOS CUARTO"),
+    ("Son las cinco en punto.", "EN_PUNTO", "PRONTO"),
+    ("Mi cuarto es grande.", "DORMITORIO", "CUARTO"),
+    ("El cuarto de baño está ocupado.", "BAÑO", "CUARTO DORMITORIO"),
+    ("Falta un cuarto de hora.", "HORA", "CUARTO Y_CUARTO"),
+    ("Vivo en el cuarto piso.", "CUARTO", "DORMITORIO"),
+    ("Espera un segundo.", "", "SEGUNDO"),
+    ("Vivo en el segundo piso.", "SEGUNDO", ""),
+    ("¿Dónde está el servicio?", "SERVICIO", ""),
+    ("El servicio de limpieza es bueno.", "", "SERVICIO"),
+    ("La niña juega con la muñeca.", "MUÑECO", "MUÑECA"),
+    ("Me duele la muñeca.", "MUÑECA", "MUÑECO"),
+    ("Me siento en el banco.", "BANCO_ASIENTO", "BANCO"),
+    ("Voy al banco a sacar dinero.", "BANCO", "BANCO_ASIENTO"),
+    ("El otoño es una estación del año.", "ESTACIÓN_DEL_AÑO", "ESTACIÓN"),
+    ("La estación de tren está lejos.", "ESTACIÓN", "ESTACIÓN_DEL_AÑO"),
+    ("Hace mal tiempo.", "TIEMPO_ATMOSFÉRICO", "TIEMPO"),
+    ("Llego tarde.", "", "TARDE"),
+    ("Por la tarde trabajo.", "TARDE", ""),
+    ("Tengo la mano derecha rota.", "DERECHA", "DERECHO"),
+    ("El derecho es difícil.", "DERECHO", "DERECHA"),
+    ("La comida está lista.", "", "LISTO"),
+    ("Es un chico listo.", "LISTO", ""),
+    ("El marco de la ventana.", "MARCO", "MARCAR"),
+    ("He perdido la vista.", "VISTA", "VESTIR"),
+    ("El medio ambiente.", "MEDIOAMBIENTE", "MEDIO"),
+    ("El gato está bajo la mesa.", "DEBAJO", "BAJO"),
+]
+SIGNS = frozenset(gloss for _, *columns in CASES for column in columns for gloss in column.split())
+
+
+@pytest.mark.parametrize(("text", "signed", "not_signed"), CASES)
+def test_the_sense_of_the_sentence_is_signed_and_no_other(text: str, signed: str, not_signed: str) -> None:
+    glosses = {
+        token.gloss
+        for sentence in TRANSLATOR.translate(text, SIGNS).sentences
+        for token in sentence.tokens
+        if token.kind is Kind.LEXICAL
+    }
+    assert glosses >= {*signed.split()} and glosses.isdisjoint(not_signed.split())
+
+
+def test_a_sense_that_the_table_lacks_is_spelled_and_says_for_which_gloss() -> None:
+    (sentence,) = TRANSLATOR.translate("Mi cuarto.", {"CUARTO"}).sentences
+    letters = [token.gloss for token in sentence.tokens if token.meant == "CUARTO"]
+    assert letters == list("CUARTO")
+    assert "CUARTO" in str(TRANSLATOR.translate("Mi cuarto."))  # while the table is not known
