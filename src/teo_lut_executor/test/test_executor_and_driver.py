@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 import rclpy
+from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -146,6 +147,31 @@ def test_a_newer_text_replaces_the_one_that_is_signed_and_those_that_wait(lab: L
     assert replaced == ["old", "newer"], "each is named, once"
     assert lab.of(SIGNING)[0] == "old" and lab.of(SIGNING)[-1] == "newest"
     assert list(dict.fromkeys(lab.of(REFUSED))) == replaced
+
+
+def test_what_the_driver_refuses_of_others_ends_no_sentence_and_is_counted(new_lab: NewLab) -> None:
+    lab = new_lab()
+    told: list[DiagnosticArray] = []
+    lab.create_subscription(DiagnosticArray, "diagnostics", told.append, 10)
+    strangers = lab.create_publisher(JointTrajectory, "joint_trajectory", 10)
+    lab.create_timer(0.2, lambda: strangers.publish(JointTrajectory(joint_names=["foo"])))
+    lab.sign("one", "NOD TURN")
+    lab.rest("one")
+    assert {status.code for status in lab.statuses} == {""}
+
+    def counted() -> int:
+        values = [pair for array in told for status in array.status for pair in status.values]
+        return max((int(v.value) for v in values if v.key == "trajectories of others refused"), default=0)
+
+    lab.until(lambda: counted() > 5)
+
+
+def test_a_motion_of_its_own_that_the_driver_refuses_is_named(new_lab: NewLab) -> None:
+    lab = new_lab("-p", "max_points:=3")
+    lab.sign("one", "NOD")
+    lab.until(lambda: lab.of(REFUSED) == ["one"])
+    assert {status.code for status in lab.statuses} == {"", "trajectory_refused"}
+    assert "too_large" in next(status.message for status in lab.statuses if status.code)
 
 
 @pytest.mark.slow

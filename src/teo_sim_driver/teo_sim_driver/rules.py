@@ -69,10 +69,15 @@ class Refusal(StrEnum):
 
 
 class TrajectoryError(DriverError):
-    """A trajectory was refused, and nothing of it is executed. `code` is a value of `Refusal`."""
+    """A trajectory was refused, and nothing of it is executed. `code` is a value of `Refusal`.
+
+    Attributes:
+        frame_id: Of the trajectory's header; empty if it has none, or is not known.
+    """
 
     def __init__(self, code: Refusal, sentence: str) -> None:
         super().__init__(code.value, sentence)
+        self.frame_id = ""
 
 
 # How far a position may be beyond a joint limit [rad]: one count of an arm's motor encoder, 0.00088 deg, the

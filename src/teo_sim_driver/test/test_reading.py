@@ -12,19 +12,21 @@ from rclpy.serialization import serialize_message
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from teo_names import LEG_JOINTS
-from teo_sim_driver.checking.reading import FIELDS, CdrTrajectory
+from teo_sim_driver.checking.reading import FIELDS, CdrTrajectory, frame_id
 from teo_sim_driver.checking.validation import check
 from teo_sim_driver.rules import Rules, TrajectoryError
 
 
 def assert_same(message):
-    read, points = CdrTrajectory(serialize_message(message)), message.points
+    data = serialize_message(message)
+    read, points = CdrTrajectory(data), message.points
     stamp = message.header.stamp
     assert (read.names, read.stamp, read.count) == (
         message.joint_names,
         (stamp.sec, stamp.nanosec),
         len(points),
     )
+    assert frame_id(data) == message.header.frame_id
     assert read.times.tolist() == [[p.time_from_start.sec, p.time_from_start.nanosec] for p in points]
     assert read.lengths.tolist() == [[len(getattr(point, name)) for name in FIELDS] for point in points]
     width = len(read.names)
@@ -81,6 +83,7 @@ def test_the_other_byte_order_is_read():
 def test_what_is_no_message_is_refused(data):
     with pytest.raises(TrajectoryError, match="bad_encoding"):
         CdrTrajectory(data)
+    assert frame_id(data) == ""
 
 
 def test_spoilt_bytes_get_a_reason(swing, limits):

@@ -57,7 +57,9 @@ class Statistics:
         return f"{float(np.percentile(times, percentile)) * 1000.0:.0f}" if times else ""
 
 
-def diagnose(statistics: Statistics, *, active: bool, queued: int, planner_restarts: int) -> Diagnosis:
+def diagnose(
+    statistics: Statistics, *, active: bool, queued: int, planner_restarts: int, others_refused: int
+) -> Diagnosis:
     """How the executor is; a sentence that it refuses is no fault of its own.
 
     Args:
@@ -65,6 +67,7 @@ def diagnose(statistics: Statistics, *, active: bool, queued: int, planner_resta
         active: Whether it may move the robot.
         queued: Sentences that wait.
         planner_restarts: How often the process that plans has died.
+        others_refused: Trajectories of others that the driver has refused.
     """
     status = statistics.status
     activity = Activity.WAITING if status is None else status.activity
@@ -75,6 +78,7 @@ def diagnose(statistics: Statistics, *, active: bool, queued: int, planner_resta
         "planning median [ms]": statistics.planning(50.0),
         "planning p99 [ms]": statistics.planning(99.0),
         "planner restarts": str(planner_restarts),
+        "trajectories of others refused": str(others_refused),
         "last problem": statistics.last_problem,
         **{f"problem {code}": str(count) for code, count in sorted(statistics.codes.items())},
     }

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import uuid
 from collections.abc import Callable
 
 from control_msgs.action import FollowJointTrajectory
@@ -31,7 +32,11 @@ _REFUSALS = {
 
 
 class DriverLink:
-    """Sends motions to the driver."""
+    """Sends motions to the driver.
+
+    Attributes:
+        others_refused: Trajectories of others that the driver has refused since the executor began.
+    """
 
     def __init__(
         self,
@@ -56,8 +61,11 @@ class DriverLink:
         self._action: ActionClient | None = None
         if interface == ACTION:
             self._action = ActionClient(node, FollowJointTrajectory, "follow_joint_trajectory")
+        # By which the driver names a motion of ours: one of an executor before this one is none.
+        self._name = f"{node.get_fully_qualified_name()} {uuid.uuid4()}"
+        self.others_refused = 0
         self._latest = 0  # number of the motion that was sent last
-        self._by_topic: int | None = None  # the same, if it was sent by topic
+        self._by_topic = False  # whether it was sent by topic
         self._refused: int | None = None  # trajectories that the driver had refused by its last report
         latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self._states = node.create_subscription(DriverState, "driver_state", self._on_state, latched)
@@ -70,12 +78,12 @@ class DriverLink:
     def send(self, number: int, trajectory: JointTrajectory) -> None:
         """Send a motion."""
         self._latest = number
-        if not self._serves:
-            self._by_topic = number
+        self._by_topic = not self._serves
+        trajectory.header.frame_id = f"{self._name} {number}"
+        if self._by_topic:
             self._topic.publish(trajectory)
             return
         assert self._action is not None
-        self._by_topic = None
         sent = self._action.send_goal_async(FollowJointTrajectory.Goal(trajectory=trajectory))
         sent.add_done_callback(lambda future: self._on_answer(number, future))
 
@@ -107,7 +115,12 @@ class DriverLink:
             self._on_refused(number, f"[{name}] {response.result.error_string}")
 
     def _on_state(self, message: DriverState) -> None:
-        refused, self._refused = self._refused, message.refused
+        before, self._refused = self._refused, message.refused
         self._on_report(to_report(message))
-        if refused is not None and message.refused > refused and self._by_topic is not None:
-            self._on_refused(self._by_topic, f"[{message.refusal_code}] {message.message}")
+        new = 0 if before is None else max(message.refused - before, 0)
+        sender, _, number = message.refused_frame_id.rpartition(" ")
+        ours = new > 0 and sender == self._name
+        # Of several at once the driver names the last: one of ours among the others shows by the robot.
+        self.others_refused += new - ours
+        if ours and self._by_topic:  # of a goal its result tells
+            self._on_refused(int(number), f"[{message.refusal_code}] {message.message}")

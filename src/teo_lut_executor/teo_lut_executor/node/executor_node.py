@@ -284,6 +284,7 @@ class ExecutorNode(SelfStartingNode):
                 active=self._active,
                 queued=self._queue.queued,
                 planner_restarts=self._planning.restarts,
+                others_refused=self._driver.others_refused,
             )
         )
 

@@ -15,7 +15,7 @@ from teo_motion.trajectory.driver_points import driver_points, point_times
 from teo_motion.trajectory.joint_motion import JointMotion
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import ROUNDING, State
-from teo_motion.trajectory.waypoint_timing import WaypointTiming
+from teo_motion.trajectory.waypoint_timing import LEAST_STEP, WaypointTiming
 from teo_signs.errors import PlanError
 
 
@@ -75,22 +75,22 @@ class SentenceTiming:
         sampled = point_times(float(times[-1]), self._period)
         motions = timing.motions(begin=float(times[0]), end=float(sampled[-1]))
         self._check(motions)
+        durations = [float(times[span.last] - times[span.first]) for span in route.spans]
         timings = tuple(
             TokenTiming(
                 token=span.token,
                 start=float(times[span.first]),
-                duration=float(times[span.last] - times[span.first]),
-                stretch=float(times[span.last] - times[span.first]) / span.asked,
+                duration=duration,
+                stretch=_stretch(duration, span.asked),
             )
-            for span in route.spans
+            for span, duration in zip(route.spans, durations, strict=True)
         )
-        asked = sum(span.asked for span in route.spans)
         plan = Plan(
             names=self._limits.names,
             motions=motions,
             samples=self._sample(motions, sampled, route.targets[-1]),
             timings=timings,
-            stretch=sum(timing.duration for timing in timings) / asked if asked > 0.0 else 1.0,
+            stretch=_stretch(sum(durations), sum(span.asked for span in route.spans)),
         )
         return TimedRoute(route, plan, times)
 
@@ -129,6 +129,11 @@ class SentenceTiming:
             velocities=found.velocities,
             accelerations=found.accelerations,
         )
+
+
+def _stretch(duration: float, asked: float) -> float:
+    """Time taken over the time asked for [1]; 1 where none was asked for, as of a pause of 0 s."""
+    return duration / asked if asked > LEAST_STEP else 1.0
 
 
 def _stands_still(state: State) -> bool:

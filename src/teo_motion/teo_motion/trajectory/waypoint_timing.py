@@ -21,7 +21,7 @@ from teo_motion.trajectory.waypoint_chain import WaypointChain, waypoint_chains
 from teo_signs.errors import PlanError
 
 # No two waypoints are closer than this [s]: a twentieth of the time between two set-points of TEO's drives.
-_LEAST_STEP = 1e-3
+LEAST_STEP = 1e-3
 
 # Most by which a stroke is stretched in one round of the search [1]: how the knots are passed is found anew
 # before it is stretched further, so that a first guess that passes them badly does not make it too slow.
@@ -56,7 +56,7 @@ class WaypointTiming:
             bounds: Limits of the m joints.
         """
         self._joints = targets.shape[1]
-        self._durations = np.maximum(nominal, _LEAST_STEP)
+        self._durations = np.maximum(nominal, LEAST_STEP)
         self._strokes = strokes
         self._chains = waypoint_chains(targets, start, bounds)
         self._wanted = np.zeros(len(nominal))  # logarithm of the factor for each step

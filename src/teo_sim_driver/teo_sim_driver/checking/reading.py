@@ -57,6 +57,20 @@ class _Block(NamedTuple):
     """Of time_from_start within a point [bytes]."""
 
 
+# A header's name is shown up to this length [bytes]: many times as long as any that is in use.
+_LONGEST_FRAME_ID = 256
+
+
+def frame_id(data: bytes) -> str:
+    """The frame_id of a message's header, without looking at the rest; empty if it cannot be read."""
+    order = _BYTE_ORDER.get(data[:2])
+    begin = _ENCAPSULATION + 12  # after the stamp and the length
+    if order is None or len(data) < begin:
+        return ""
+    (size,) = struct.unpack_from(order + "I", data, begin - 4)
+    return data[begin : begin + min(size, _LONGEST_FRAME_ID)].rstrip(b"\0").decode(errors="replace")
+
+
 class CdrTrajectory:
     """A message as it came over the wire: its head is read at once, its points when they are asked for."""
 

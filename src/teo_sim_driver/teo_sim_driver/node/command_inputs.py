@@ -18,7 +18,7 @@ from std_srvs.srv import Trigger
 from trajectory_msgs.msg import JointTrajectory
 
 from teo_description.humanoid import Humanoid
-from teo_sim_driver.checking.reading import check_count
+from teo_sim_driver.checking.reading import check_count, frame_id
 from teo_sim_driver.checking.validation import MOST_WAITING, Checked, Intake
 from teo_sim_driver.follower_report import Mode, Source
 from teo_sim_driver.goal_monitor import ResultCode
@@ -41,6 +41,8 @@ class _Sender(NamedTuple):
     group: JointGroup
     goal: Goal | None
     """None for the topic."""
+    frame_id: str
+    """Of the trajectory's header."""
 
 
 class CommandInputs:
@@ -71,7 +73,7 @@ class CommandInputs:
             node.create_subscription(
                 JointTrajectory,
                 f"{group.prefix}joint_trajectory",
-                partial(self._on_trajectory, _Sender(group, None)),
+                partial(self._on_trajectory, group),
                 MOST_WAITING,
                 raw=True,
                 event_callbacks=_UNWATCHED if group.name else None,
@@ -93,6 +95,7 @@ class CommandInputs:
             try:
                 self._take(checked, now)
             except TrajectoryError as refusal:
+                refusal.frame_id = checked.sender.frame_id
                 if checked.sender.goal is not None:
                     checked.sender.goal.refuse(refusal)
                 self._report(refusal)
@@ -113,15 +116,18 @@ class CommandInputs:
         now: int = self._node.get_clock().now().nanoseconds
         return now
 
-    def _on_trajectory(self, sender: _Sender, message: bytes) -> None:
+    def _on_trajectory(self, group: JointGroup, message: bytes) -> None:
+        sender = _Sender(group, None, frame_id(message))
         try:
-            self._intake.put(message, self._follower.rules, sender, sender.group)
+            self._intake.put(message, self._follower.rules, sender, group)
         except TrajectoryError as refusal:
+            refusal.frame_id = sender.frame_id
             self._on_refused(refusal)
 
     def _on_goal(self, group: JointGroup, goal: Goal) -> None:
         check_count(goal.points, self._follower.rules)
-        self._intake.put(goal.trajectory, self._follower.rules, _Sender(group, goal), group)
+        sender = _Sender(group, goal, frame_id(goal.trajectory))
+        self._intake.put(goal.trajectory, self._follower.rules, sender, group)
 
     def _on_refused(self, refusal: TrajectoryError) -> None:
         self._follower.count_refusal(refusal)
@@ -133,7 +139,7 @@ class CommandInputs:
         Raises:
             TrajectoryError: refused, and counted.
         """
-        group, goal = checked.sender
+        group, goal, _ = checked.sender
         if goal is not None and goal.handle.is_cancel_requested:
             goal.finish(End.CANCELED, ResultCode.SUCCESSFUL, "canceled before it began")
             return

@@ -136,6 +136,7 @@ class DriverStatePublisher:
             path_time=report.path_time,
             path_duration=report.path_duration,
             refused=refused,
+            refused_frame_id=last.frame_id if last else "",
             refusal_code=last.code if last else "",
             message=report.reason or (last.sentence if last else ""),
         )

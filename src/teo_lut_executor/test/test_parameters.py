@@ -1,0 +1,83 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""The executor signs with every value that its parameters may have."""
+
+from __future__ import annotations
+
+import random
+from dataclasses import fields
+
+import pytest
+
+from teo_description.robot import Robot
+from teo_lut_executor.node.parameters import PARAMETERS, planner_settings_from
+from teo_lut_executor.planning_worker import PlannerSettings
+from teo_motion.planner import Planner
+from teo_motion.sentence.sentence_form import SentenceForm, SentenceType
+from teo_motion.sentence.signing_style import SigningStyle
+from teo_signs.errors import PlanError
+from teo_signs.tokens import parse_printed
+
+DEFAULTS = {row.name: row.default for row in PARAMETERS}
+DIALS = {field.name for kind in (PlannerSettings, SigningStyle) for field in fields(kind)}
+RANGES = {row.name: (row.low, row.high) for row in PARAMETERS if row.name in DIALS and row.low is not None}
+# What refuses sentences on purpose, and the code by which it does.
+GATES = {"max_duration": "too_long", "least_clearance": "self_collision"}
+
+QUESTION = SentenceForm(type=SentenceType.YES_NO_QUESTION)
+SENTENCES = (
+    ("TÚ _", SentenceForm()),
+    ("A-N-N-A", SentenceForm()),
+    ("CASA", QUESTION),
+    ("35 _", SentenceForm(negated=True)),
+    ("_ A", QUESTION),
+)
+
+
+@pytest.fixture(scope="module")
+def robot() -> Robot:
+    return Robot.load("teo")
+
+
+def planner(robot: Robot, values: dict[str, float]) -> Planner:
+    settings = planner_settings_from(DEFAULTS | values)
+    table = settings.table()
+    return settings.planner(table, robot, table.language)
+
+
+def assert_signs(planner: Planner) -> None:
+    for text, form in SENTENCES:
+        plan = planner.plan(parse_printed(text), form=form)
+        assert plan.duration > 1.0
+        assert all(timing.duration >= 0.0 and timing.stretch >= 0.0 for timing in plan.timings)
+        assert 0.5 < plan.stretch < 100.0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "value"), [(name, end) for name, ends in RANGES.items() if name not in GATES for end in ends]
+)
+def test_each_parameter_at_both_ends_of_its_range_signs(robot: Robot, name: str, value: float) -> None:
+    assert_signs(planner(robot, {name: value}))
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_any_parameters_within_their_ranges_sign(robot: Robot, seed: int) -> None:
+    dice = random.Random(seed)
+    values = {
+        name: dice.choice((*ends, dice.uniform(*ends))) for name, ends in RANGES.items() if name not in GATES
+    }
+    assert_signs(planner(robot, values))
+
+
+@pytest.mark.parametrize(("name", "code"), GATES.items())
+def test_a_limit_at_its_strictest_refuses_by_its_code_and_at_its_loosest_signs(
+    robot: Robot, name: str, code: str
+) -> None:
+    loosest, strictest = sorted(RANGES[name], key=lambda value: value * (-1 if name == "max_duration" else 1))
+    assert_signs(planner(robot, {name: loosest}))
+    strict = planner(robot, {name: strictest})
+    for text, form in SENTENCES:
+        with pytest.raises(PlanError) as refusal:
+            strict.plan(parse_printed(text), form=form)
+        assert refusal.value.code == code
