@@ -12,6 +12,7 @@ from teo_description.humanoid import load_humanoid
 from teo_lut_executor.execution.interface import (
     Activity,
     Begun,
+    DriverMode,
     Outcome,
     PlanWanted,
     QueueSettings,
@@ -207,6 +208,24 @@ def test_a_stop_that_the_driver_does_not_take_is_sent_again(world: World) -> Non
     world.run_until(lambda: bool(world.finished()))
     assert world.finished() == [(ticket, Outcome.CANCELED)]
     np.testing.assert_allclose(world.positions, REST, atol=0.02)
+
+
+def test_a_driver_that_takes_no_stop_gets_time_between_them_and_is_then_told_to_stop_by_itself(
+    world: World,
+) -> None:
+    world.run(0.1)
+    canceled, following = world.sign("A-N-A-N-A-N-A-N"), world.sign("TÚ")
+    world.run_until(lambda: world.now > 103.0 and bool(np.abs(world.velocities).max() > 0.5))
+    world.accepts, world.takes_stops = lambda _: False, False
+    began = world.now
+    world.cancel(canceled)
+    world.run_until(lambda: world.statuses()[-2].code == "stop_refused", most=5.0)
+    assert len(world.stops) == 5 and world.now - began >= sum(stop.lead for stop in world.stops)
+    assert not world.velocities.any()
+    world.accepts, world.takes_stops = lambda _: True, True
+    world.driver_says(DriverMode.HOLDING)  # re-armed
+    world.run_until(lambda: len(world.finished()) == 2)
+    assert world.finished() == [(canceled, Outcome.CANCELED), (following, Outcome.SUCCESS)]
 
 
 def test_progress_names_the_token_that_is_signed(world: World) -> None:
