@@ -252,13 +252,19 @@ def test_progress_names_the_token_that_is_signed(world: World) -> None:
     assert fractions == sorted(fractions) and fractions[0] >= 0.0 and fractions[-1] <= 1.0
 
 
-def test_a_clock_that_is_set_back_does_not_stop_the_signing(world: World) -> None:
+@pytest.mark.parametrize(("clock", "path"), [(-90.0, 0.0), (60.0, 0.0), (1.5, 0.0), (1.5, 1.5), (60.0, 60.0)])
+@pytest.mark.parametrize("moment", [0.04, 2.0])
+def test_a_clock_that_is_set_or_a_process_that_is_held_up_does_not_stop_the_signing(
+    world: World, clock: float, path: float, moment: float
+) -> None:
     world.run(0.1)
-    ticket = world.sign("TÚ")
-    world.run(2.0)
-    world.now -= 90.0
-    world.run_until(lambda: bool(world.finished()), most=10.0)
+    ticket = world.sign("TÚ A-N")
+    world.run(moment)
+    world.now += clock
+    world._path_time += path  # the robot went on while nobody looked
+    world.run_until(lambda: bool(world.finished()), most=20.0)
     assert world.finished() == [(ticket, Outcome.SUCCESS)]
+    assert not [status.code for status in world.statuses() if status.code]
 
 
 @pytest.mark.parametrize(

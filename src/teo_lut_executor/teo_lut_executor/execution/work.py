@@ -157,7 +157,10 @@ class Work:
         path_time, clock_set = self.situation.tick(now)
         self.halt.shift_clock(clock_set)
         for motion in self.sent:
-            motion.advance(path_time)
+            if clock_set and self.situation.driver is not None:
+                motion.leap(path_time)
+            else:
+                motion.advance(path_time)
 
     def send(
         self, plan: Plan, samples: Samples, start: float | None = None, *, elapsed: float = 0.0
