@@ -13,6 +13,7 @@ from teo_lut_executor.execution.interface import (
     Activity,
     Begun,
     DriverMode,
+    DriverReport,
     Outcome,
     PlanWanted,
     QueueSettings,
@@ -250,6 +251,13 @@ def test_progress_names_the_token_that_is_signed(world: World) -> None:
     }
     fractions = [fraction for _, _, fraction in seen]
     assert fractions == sorted(fractions) and fractions[0] >= 0.0 and fractions[-1] <= 1.0
+
+
+def test_what_a_paused_robot_waits_for_is_told_as_its_driver_says_it(world: World) -> None:
+    world.run(0.1)
+    report = DriverReport(mode=DriverMode.PAUSED, speed_scaling=0.0, message="the speed scaling factor is 0")
+    world.take(world.queue.driver_state(report, world.now))
+    assert world.statuses()[-1].message == report.message
 
 
 @pytest.mark.parametrize(("clock", "path"), [(-90.0, 0.0), (60.0, 0.0), (1.5, 0.0), (1.5, 1.5), (60.0, 60.0)])

@@ -128,6 +128,12 @@ def test_a_pause_and_a_slower_speed_keep_to_the_path(bench, one_way):
     bench.until(lambda: bench.driver_states[-1].speed_scaling == 0.5)
     bench.until(lambda: abs(bench.position("FrontalRightElbow") + 0.2) < 1e-9)
     assert not bench.call("resume").success
+    factors.publish(SpeedScalingFactor(factor=0.0))
+    bench.until(lambda: bench.mode() == DriverState.MODE_PAUSED)
+    answer = bench.call("resume")
+    assert not answer.success
+    for said in (answer.message, bench.driver_states[-1].message):
+        assert "`speed_scaling_input`" in said and "`resume`" not in said
 
 
 def test_it_moves_only_while_its_lifecycle_is_active(new_bench, one_way):

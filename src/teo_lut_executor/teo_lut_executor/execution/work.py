@@ -268,8 +268,9 @@ def _status(work: Work) -> Status:
         silent = situation.settings.joint_state_timeout
         stale = f"no joint_states for {silent:g} s: see that the driver runs"
         return replace(status, activity=Activity.FAULT, code="stale_joint_states", message=stale)
-    if situation.mode is DriverMode.PAUSED:
-        return replace(status, activity=Activity.PAUSED, message="paused: it goes on at `resume`")
+    if situation.driver is not None and situation.mode is DriverMode.PAUSED:
+        message = situation.driver.message or "paused: it goes on at `resume`"
+        return replace(status, activity=Activity.PAUSED, message=message)
     signs = work.state in (State.OPENING, State.SIGNING)
     if signs and current is not None and current.plan is not None:
         plan = current.plan

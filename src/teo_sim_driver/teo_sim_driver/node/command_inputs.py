@@ -207,9 +207,11 @@ class OperatorServices:
 
     def _resume(self) -> str:
         if not self._follower.resume(self._now()):
-            mode = self._follower.mode
-            instead = ": call `rearm`" if mode in (Mode.STOPPED, Mode.FAULT) else ""
-            raise DriverError("not_paused", f"expected a pause to end, it is {mode}{instead}")
+            report = self._follower.report()
+            instead = f": {report.reason}" if report.reason else ""
+            if report.mode in (Mode.STOPPED, Mode.FAULT):
+                instead += ": call `rearm`"
+            raise DriverError("not_paused", f"expected a pause to end, it is {report.mode}{instead}")
         return f"resumed: {self._follower.mode}"
 
     def _on_scaling(self, message: SpeedScalingFactor) -> None:
