@@ -129,7 +129,7 @@ SERVICES = (
     Interface(
         "rearm",
         "std_srvs/Trigger",
-        "Accept motions again after `stop` or a fault; answers `moving: ...` until the robot is at rest",
+        "Accept motions again after `stop` or a fault, once the robot is at rest",
     ),
     Interface("pause", "std_srvs/Trigger", "Stand still on the path"),
     Interface("resume", "std_srvs/Trigger", "Continue after `pause`"),

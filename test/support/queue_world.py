@@ -15,6 +15,7 @@ from teo_lut_executor.execution.interface import (
     DriverReport,
     Effect,
     Finished,
+    HaltReady,
     Outcome,
     PlanWanted,
     QueueSettings,
@@ -66,6 +67,7 @@ class World:
         self.lag = 0.0  # of the robot behind what it was sent [s]
         self.pace = 1.0  # path time per time
         self.delay = 0.0  # of motions on their way to the driver [s]
+        self.takes_stops = True
         self.accepts: Callable[[TrajectoryReady], bool] = lambda _: True
         self.refused = 0  # motions that began elsewhere, or came too late
         self._mode: DriverMode | None = None  # what the driver was told to be, None: it moves or holds
@@ -109,6 +111,8 @@ class World:
             elif isinstance(event, StopReady):
                 self.stops.append(event)
                 self._mail.append((self.now + self.delay, event))
+            elif isinstance(event, HaltReady):
+                self.driver_says(DriverMode.STOPPED)
         self._deliver()
 
     def _deliver(self) -> None:
@@ -117,6 +121,8 @@ class World:
         for event in due:
             if isinstance(event, TrajectoryReady):
                 self._go(event)
+            elif not self.takes_stops:
+                self._refuse(event.number)
             elif self._motions or self._stop:
                 self.taken.append((self.now, event))
                 self._motions = []

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Requests to re-arm a robot that brakes: kept, done at rest, and given up when it is stopped again."""
+"""Requests to re-arm a robot: passed on, and given up when it is stopped again."""
 
 from __future__ import annotations
 
@@ -8,11 +8,10 @@ import pytest
 from std_srvs.srv import Trigger
 
 from teo_console.node.messages import to_answer
-from teo_console.node.rearming import PATIENCE, Rearming, Reply
+from teo_console.node.rearming import Rearming, Reply
 from teo_console.protocol import Answer, Command, Order
 
 REARM = Command(id=7, order=Order.REARM)
-BRAKING = Answer(id=7, success=False, code="moving", message="at rest in 0.19 s")
 SWITCH = Answer(id=7, success=False, code="limit_switch", message="pressed")
 DONE = Answer(id=7, success=True)
 
@@ -49,51 +48,16 @@ def test_a_robot_at_rest_is_asked_once_and_its_answer_passed_on(
     driver: Driver, rearming: Rearming, answer: Answer
 ) -> None:
     told: list[Answer] = []
-    rearming.ask(REARM, told.append, now=0.0)
+    rearming.ask(REARM, told.append)
     driver.answer(answer)
-    rearming.step(now=0.1)
     assert (driver.orders, told) == ([Order.REARM], [answer])
-
-
-def test_a_robot_that_brakes_is_asked_again_until_it_is_at_rest(driver: Driver, rearming: Rearming) -> None:
-    told: list[Answer] = []
-    rearming.ask(REARM, told.append, now=0.0)
-    for now in (0.1, 0.2):
-        driver.answer(BRAKING)
-        rearming.step(now)
-        rearming.step(now)  # it has not answered yet: not asked twice
-    assert driver.orders == [Order.REARM] * 3
-    assert not told
-    driver.answer(DONE)
-    assert told == [DONE]
-
-
-def test_a_robot_that_does_not_come_to_rest_is_given_up_with_what_the_driver_said(
-    driver: Driver, rearming: Rearming
-) -> None:
-    told: list[Answer] = []
-    rearming.ask(REARM, told.append, now=0.0)
-    driver.answer(BRAKING)
-    rearming.step(now=PATIENCE)
-    rearming.step(now=PATIENCE + 0.1)
-    assert (driver.orders, told) == ([Order.REARM], [BRAKING])
-
-
-def test_a_stop_ends_a_request_that_is_kept(driver: Driver, rearming: Rearming) -> None:
-    told: list[Answer] = []
-    rearming.ask(REARM, told.append, now=0.0)
-    driver.answer(BRAKING)
-    rearming.give_up()
-    rearming.step(now=0.1)
-    assert driver.orders == [Order.REARM]
-    assert [(answer.id, answer.success, answer.code) for answer in told] == [(7, False, "stopped_again")]
 
 
 def test_a_robot_that_was_rearmed_although_a_stop_came_is_stopped_again(
     driver: Driver, rearming: Rearming
 ) -> None:
     told: list[Answer] = []
-    rearming.ask(REARM, told.append, now=0.0)
+    rearming.ask(REARM, told.append)
     rearming.give_up()
     driver.answer(DONE)  # the driver had the stop first
     assert driver.orders == [Order.REARM, Order.STOP]
@@ -103,10 +67,8 @@ def test_a_robot_that_was_rearmed_although_a_stop_came_is_stopped_again(
 def test_two_pages_are_both_answered(driver: Driver, rearming: Rearming) -> None:
     told: list[Answer] = []
     for _ in range(2):
-        rearming.ask(REARM, told.append, now=0.0)
-        driver.answer(BRAKING)
-    rearming.step(now=0.1)
-    for _, reply in driver.asked[2:]:
+        rearming.ask(REARM, told.append)
+    for _, reply in driver.asked:
         reply(DONE)
     assert told == [DONE, DONE]
 

@@ -12,6 +12,8 @@ from teo_description.humanoid import load_humanoid
 from teo_lut_executor.execution.interface import (
     Activity,
     Begun,
+    DriverMode,
+    DriverReport,
     Outcome,
     PlanWanted,
     QueueSettings,
@@ -209,6 +211,24 @@ def test_a_stop_that_the_driver_does_not_take_is_sent_again(world: World) -> Non
     np.testing.assert_allclose(world.positions, REST, atol=0.02)
 
 
+def test_a_driver_that_takes_no_stop_gets_time_between_them_and_is_then_told_to_stop_by_itself(
+    world: World,
+) -> None:
+    world.run(0.1)
+    canceled, following = world.sign("A-N-A-N-A-N-A-N"), world.sign("TÚ")
+    world.run_until(lambda: world.now > 103.0 and bool(np.abs(world.velocities).max() > 0.5))
+    world.accepts, world.takes_stops = lambda _: False, False
+    began = world.now
+    world.cancel(canceled)
+    world.run_until(lambda: world.statuses()[-2].code == "stop_refused", most=5.0)
+    assert len(world.stops) == 5 and world.now - began >= sum(stop.lead for stop in world.stops)
+    assert not world.velocities.any()
+    world.accepts, world.takes_stops = lambda _: True, True
+    world.driver_says(DriverMode.HOLDING)  # re-armed
+    world.run_until(lambda: len(world.finished()) == 2)
+    assert world.finished() == [(canceled, Outcome.CANCELED), (following, Outcome.SUCCESS)]
+
+
 def test_progress_names_the_token_that_is_signed(world: World) -> None:
     world.run(0.1)
     assert world.queue.progress(world.now) is None
@@ -233,13 +253,26 @@ def test_progress_names_the_token_that_is_signed(world: World) -> None:
     assert fractions == sorted(fractions) and fractions[0] >= 0.0 and fractions[-1] <= 1.0
 
 
-def test_a_clock_that_is_set_back_does_not_stop_the_signing(world: World) -> None:
+def test_what_a_paused_robot_waits_for_is_told_as_its_driver_says_it(world: World) -> None:
     world.run(0.1)
-    ticket = world.sign("TÚ")
-    world.run(2.0)
-    world.now -= 90.0
-    world.run_until(lambda: bool(world.finished()), most=10.0)
+    report = DriverReport(mode=DriverMode.PAUSED, speed_scaling=0.0, message="the speed scaling factor is 0")
+    world.take(world.queue.driver_state(report, world.now))
+    assert world.statuses()[-1].message == report.message
+
+
+@pytest.mark.parametrize(("clock", "path"), [(-90.0, 0.0), (60.0, 0.0), (1.5, 0.0), (1.5, 1.5), (60.0, 60.0)])
+@pytest.mark.parametrize("moment", [0.04, 2.0])
+def test_a_clock_that_is_set_or_a_process_that_is_held_up_does_not_stop_the_signing(
+    world: World, clock: float, path: float, moment: float
+) -> None:
+    world.run(0.1)
+    ticket = world.sign("TÚ A-N")
+    world.run(moment)
+    world.now += clock
+    world._path_time += path  # the robot went on while nobody looked
+    world.run_until(lambda: bool(world.finished()), most=20.0)
     assert world.finished() == [(ticket, Outcome.SUCCESS)]
+    assert not [status.code for status in world.statuses() if status.code]
 
 
 @pytest.mark.parametrize(

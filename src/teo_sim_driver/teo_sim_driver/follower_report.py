@@ -81,8 +81,10 @@ _BLOCKING = {
     Mode.INACTIVE: (Refusal.INACTIVE, "activate it (`ros2 lifecycle set ... activate`), then send it again"),
     Mode.FAULT: (Refusal.FAULT, "mend the cause, call `rearm`, then send it again"),
     Mode.STOPPED: (Refusal.STOPPED, "call `rearm`, then send it again"),
-    Mode.PAUSED: (Refusal.PAUSED, "resume, or stop and re-arm, then send it again"),
+    Mode.PAUSED: (Refusal.PAUSED, "let it, or stop and re-arm it, then send it again"),
 }
+
+_NO_PACE = "the speed scaling factor is 0: it goes on at a greater one, sent on `speed_scaling_input`"
 
 
 class Gate:
@@ -113,7 +115,7 @@ class Gate:
     def reason(self, mode: Mode) -> str:
         """Why it is paused, stopped, inactive or in fault; empty in the other modes."""
         if mode is Mode.PAUSED:
-            return "paused" if self.paused else "the speed scaling factor is 0"
+            return "paused: it goes on at `resume`" if self.paused else _NO_PACE
         return self.blocks.get(mode, "")
 
     def check(self, moving: bool) -> None:

@@ -91,6 +91,11 @@ class JointFollower:
     def _at_rest(self) -> bool:
         return not self._following or (self._pace.rate == 0.0 and self._pace.remaining == 0.0)
 
+    @property
+    def slows_down(self) -> bool:
+        """Whether it comes to a standstill, to hold there."""
+        return self._following and self._ending
+
     def step(self, now: int) -> MotionState:
         """Move on to this time and return what is sent to the joints."""
         self.step_duration = duration = self._clock.advance(now)
@@ -179,7 +184,7 @@ class JointFollower:
         Raises:
             DriverError: ``moving``: the robot is still slowing down.
         """
-        if mode in self._gate.blocks and self._following and self._ending:
+        if mode in self._gate.blocks and self.slows_down:
             raise DriverError(
                 "moving", f"the robot is at rest in {self._pace.remaining:.2f} s: call again then"
             )

@@ -21,6 +21,7 @@ from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import JointState
 from simulated_clock import SECOND, SimulatedClock
 from std_msgs.msg import Float64MultiArray, String
+from std_srvs.srv import Trigger
 from teo_sign_msgs.msg import DriverState
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
@@ -90,7 +91,11 @@ def test_told_to_stop_it_comes_to_rest_on_the_way_and_takes_nothing_until_re_arm
     answer = bench.call("stop")
     assert answer.success
     assert "at rest in" in answer.message
-    assert not bench.call("rearm").success  # not before it stands
+    rearmed = bench.triggers["rearm"].call_async(Trigger.Request())  # waits until it stands
+    bench.until(lambda: bench.driver._operator._waiting)
+    assert bench.call("stop").success, "which another stop ends"
+    bench.until(rearmed.done)
+    assert rearmed.result().message.startswith("stopped_again")
     bench.until(lambda: not any(bench.states[-1].velocity))
     where = bench.position("FrontalRightElbow")
     assert -0.9 < where < -0.05
@@ -108,7 +113,9 @@ def test_told_to_stop_it_comes_to_rest_on_the_way_and_takes_nothing_until_re_arm
     assert bench.call("rearm").success
     bench.until(lambda: bench.mode() == DriverState.MODE_HOLDING)
     bench.commands.publish(home)
-    bench.until(lambda: bench.position("FrontalRightElbow") == HOME["FrontalRightElbow"])
+    bench.until(lambda: bench.position("FrontalRightElbow") > where + 0.05)
+    assert bench.call("stop").success and bench.call("rearm").success, "at once, when it is at rest"
+    bench.until(lambda: bench.mode() == DriverState.MODE_HOLDING and bench.driver_states[-1].at_rest)
 
 
 def test_a_pause_and_a_slower_speed_keep_to_the_path(bench, one_way):
@@ -130,6 +137,12 @@ def test_a_pause_and_a_slower_speed_keep_to_the_path(bench, one_way):
     bench.until(lambda: bench.driver_states[-1].speed_scaling == 0.5)
     bench.until(lambda: abs(bench.position("FrontalRightElbow") + 0.2) < 1e-9)
     assert not bench.call("resume").success
+    factors.publish(SpeedScalingFactor(factor=0.0))
+    bench.until(lambda: bench.mode() == DriverState.MODE_PAUSED)
+    answer = bench.call("resume")
+    assert not answer.success
+    for said in (answer.message, bench.driver_states[-1].message):
+        assert "`speed_scaling_input`" in said and "`resume`" not in said
 
 
 def test_it_moves_only_while_its_lifecycle_is_active(new_bench, one_way):

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import time
 import uuid
 from collections.abc import Callable
 from typing import Any
@@ -34,9 +33,6 @@ from teo_console.protocol import (
 )
 from teo_console.situation import SharedSituation
 
-# How often a request to re-arm that is kept is tried again [s]: the robot brakes for twice as long.
-_REARMING_PERIOD = 0.1
-
 
 class RobotClient:
     """Answers requests of pages. A service's answer comes when it comes: `reply` is called then."""
@@ -57,7 +53,6 @@ class RobotClient:
         self._get_sign = node.create_client(GetSign, "get_sign")
         self._list_queue = node.create_client(ListQueue, "list_queue")
         self._rearming = Rearming(self._order)
-        node.create_timer(_REARMING_PERIOD, lambda: self._rearming.step(time.monotonic()))
 
     def serve(self, asked: FromPage, reply: Reply) -> None:
         """Carry out a request, and reply once."""
@@ -94,7 +89,7 @@ class RobotClient:
                 self._situation.speed_wanted(asked.factor)
                 reply(Answer(id=asked.id, success=True))
             case Command(order=Order.REARM):
-                self._rearming.ask(asked, reply, time.monotonic())
+                self._rearming.ask(asked, reply)
             case Command():
                 if asked.order is Order.STOP:
                     self._rearming.give_up()

@@ -3,7 +3,8 @@
 """How a robot in motion is brought to a standstill.
 
 One that follows its motion is sent a continuation to a point a little ahead, where it ends. Any other is
-told to stop from where joint states show it, several times if need be.
+told to stop from where joint states show it, several times if need be. A driver that takes none of these
+stops is told to stop by itself, on its own path, which it takes whatever the robot does.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from teo_lut_executor.execution.interface import StopReady
+from teo_lut_executor.execution.interface import HaltReady, StopReady
 from teo_lut_executor.execution.sent_motion import LEAST_AHEAD, SentMotion
 from teo_lut_executor.execution.situation import Situation
 from teo_motion.sentence.plan import Plan, Samples
@@ -24,7 +25,7 @@ from teo_motion.trajectory.ruckig_segment import RuckigSolver, State
 from teo_motion.trajectory.stopping import stop
 
 # How often a stop is sent to a robot that goes on moving: a driver may refuse one when a joint is about to
-# reach a limit, and take the next.
+# reach a limit, and take the next, a third of a second later.
 _MOST_STOPS = 5
 
 # Time after the end of a stop at which the next is sent [s].
@@ -41,13 +42,14 @@ class Halt:
         """Begin with nothing to stop."""
         self._situation = situation
         self._stops = 0
-        self._due = -math.inf
+        self._due = self._next = -math.inf  # when it should stand; when it may be told again
         self._owed = False
         self._number = 0  # of the stop that was sent last
 
     def begin(self) -> None:
         """Expect the robot to stand from now on."""
-        self._stops, self._due, self._owed = 0, self._situation.now, False
+        self._stops, self._owed = 0, False
+        self._due = self._next = self._situation.now
 
     def owe(self, number: int | None = None) -> None:
         """Stop the robot when it can be told, though it may seem to stand: it has a motion to go on with.
@@ -57,22 +59,27 @@ class Halt:
                 not be told.
         """
         if number is None or number == self._number:
-            self._owed = self._stops < _MOST_STOPS
+            self._owed = True
 
     def shift_clock(self, by: float) -> None:
         """Follow a clock that was set by so much [s]."""
         self._due += by
+        self._next += by
 
-    def stop(self, moving: State, number: int) -> list[StopReady]:
+    def stop(self, moving: State, number: int) -> list[StopReady | HaltReady]:
         """Stop a robot in this state, if it moves; the motion gets a number."""
         situation = self._situation
         still = situation.robot.is_still and not self._owed
-        if still or not situation.may_be_told or self._stops >= _MOST_STOPS:
+        # A driver that has taken the last stop, and moves the robot, does so for somebody else.
+        taken = self._stops == _MOST_STOPS and not self._owed
+        if still or taken or not situation.may_be_told:
             return []
         self._stops += 1
         self._owed, self._number = False, number
         end, lead = stop(moving, situation.limits)
-        self._due = situation.now + lead
+        self._due = self._next = situation.now + lead
+        if self._stops > _MOST_STOPS:
+            return [HaltReady()]
         return [StopReady(number=number, end=end, lead=lead)]
 
     def expect(self, number: int, duration: float) -> None:
@@ -89,7 +96,8 @@ class Halt:
     @property
     def is_overdue(self) -> bool:
         """Whether the robot should stand, and is to be told again."""
-        return self._owed or self._situation.now > self._due + _STOP_PATIENCE
+        now = self._situation.now
+        return now > self._due + _STOP_PATIENCE or (self._owed and now >= self._next)
 
 
 # Points of a motion before the seam that depend on nothing before the motion: see `continued`.

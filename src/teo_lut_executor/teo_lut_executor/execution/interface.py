@@ -195,6 +195,11 @@ class StopReady:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class HaltReady:
+    """Have the driver stop the robot by itself, and take nothing until it is re-armed."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Begun:
     """The robot begins to sign a sentence, not for the first time if it was interrupted before."""
 
@@ -242,7 +247,7 @@ class Finished:
 
 
 #: What is to be done.
-Effect = PlanWanted | ReturnWanted | TrajectoryReady | StopReady | Begun | Status | Finished
+Effect = PlanWanted | ReturnWanted | TrajectoryReady | StopReady | HaltReady | Begun | Status | Finished
 
 
 @dataclass(frozen=True, kw_only=True)

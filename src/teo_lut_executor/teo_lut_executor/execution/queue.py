@@ -163,7 +163,10 @@ class ExecutionQueue:
         """Take what the driver says of itself."""
         self._work.tick(now)
         self._work.situation.hear_driver(report)
-        if report.remaining is not None:
+        if report.remaining is None:
+            for motion in self._work.sent:
+                motion.end_leap()
+        elif report.stamp >= self._work.situation.clock_set:
             since = max(now - report.stamp, 0.0)  # the message's way here
             for motion in self._work.sent:
                 motion.synchronise(report.remaining - since * report.speed_scaling)

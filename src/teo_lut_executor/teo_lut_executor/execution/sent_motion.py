@@ -60,6 +60,7 @@ class SentMotion:
     elapsed: float
     settings: QueueSettings
     awaited: bool = False
+    _leapt: float = 0.0  # see `leap`
     _away_for: float = 0.0
     _was_away: bool = False
 
@@ -69,12 +70,27 @@ class SentMotion:
         if self._was_away:
             self._away_for += duration
 
+    def leap(self, duration: float) -> None:
+        """So much path time has passed [s] if this process was held up, and none if the clock was set.
+
+        The driver's next word tells which.
+        """
+        self._leapt += duration
+
+    def end_leap(self) -> None:
+        """The driver executes nothing: if it had this motion, it is over."""
+        if not self.awaited:
+            self.elapsed = max(self.elapsed, min(self.elapsed + self._leapt, self.plan.duration))
+            self._leapt = 0.0
+
     def synchronise(self, remaining: float) -> None:
         """Take the driver's word for the path time that is left to the end [s]."""
         elapsed = self.plan.duration - remaining
         longest = math.inf if self.awaited else _SAME_TRAJECTORY
-        if -_SAME_TRAJECTORY < self.elapsed - elapsed < longest:
-            self.elapsed, self.awaited = elapsed, False
+        for ours in (self.elapsed, self.elapsed + self._leapt):
+            if -_SAME_TRAJECTORY < ours - elapsed < longest:
+                self.elapsed, self.awaited, self._leapt = elapsed, False, 0.0
+                return
 
     def state_at(self, time: float) -> State:
         """State of the joints at a path time [s]."""

@@ -137,6 +137,7 @@ class Situation:
         robot: Where it is.
         driver: What it said last, see `hear_driver`; None if nothing yet.
         obstacle: Why no motion may begin, as far as the caller knows; empty if it may.
+        clock_set: When the clock was set last [s]; stamps from before it are of another clock.
     """
 
     def __init__(self, limits: MotionLimits, settings: QueueSettings) -> None:
@@ -147,13 +148,13 @@ class Situation:
         self.robot = RobotState(limits.names)
         self.driver: DriverReport | None = None
         self.obstacle = ""
-        self._pace_changed = -math.inf
+        self._pace_changed = self.clock_set = -math.inf
 
     def tick(self, now: float) -> tuple[float, float]:
         """Let time pass; carry on where we are if the clock was set.
 
         Returns:
-            Path time that has passed, and by how much the clock was set; both [s].
+            Path time that has passed, or may have if the clock was set, and by how much it was; both [s].
         """
         passed = now - self.now if math.isfinite(self.now) else 0.0
         self.now = now
@@ -161,6 +162,7 @@ class Situation:
         if is_set:
             self.robot.shift_clock(passed)
             self._pace_changed += passed
+            self.clock_set = now
         return max(passed, 0.0) * self.pace, passed if is_set else 0.0
 
     def hear_driver(self, report: DriverReport) -> None:

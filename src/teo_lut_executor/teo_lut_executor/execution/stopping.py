@@ -7,7 +7,14 @@ from __future__ import annotations
 from dataclasses import replace
 
 from teo_lut_executor.execution.braking import brake
-from teo_lut_executor.execution.interface import Activity, DriverMode, Effect, Outcome, TrajectoryReady
+from teo_lut_executor.execution.interface import (
+    Activity,
+    DriverMode,
+    Effect,
+    HaltReady,
+    Outcome,
+    TrajectoryReady,
+)
 from teo_lut_executor.execution.signing import begin_next, unsend_next
 from teo_lut_executor.execution.work import State, Work, completed, finished, named, refused
 from teo_signs.errors import PlanError
@@ -103,7 +110,11 @@ def try_rest_again(work: Work, error: PlanError) -> list[Effect]:
 
 def stop_again(work: Work, _: object = None) -> list[Effect]:
     """Tell a robot to stop that should stand and moves."""
-    return [*work.halt.stop(work.situation.robot.state(), next(work.numbers))]
+    told: list[Effect] = [*work.halt.stop(work.situation.robot.state(), next(work.numbers))]
+    if not any(isinstance(each, HaltReady) for each in told):
+        return told
+    refused = "the driver takes no motion to a standstill: it is told to `stop`; re-arm it to go on"
+    return [*told, *named(work, None, PlanError("stop_refused", refused), Activity.FAULT)]
 
 
 def owe_stop(work: Work, number: int) -> list[Effect]:

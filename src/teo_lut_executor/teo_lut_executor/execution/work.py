@@ -157,7 +157,10 @@ class Work:
         path_time, clock_set = self.situation.tick(now)
         self.halt.shift_clock(clock_set)
         for motion in self.sent:
-            motion.advance(path_time)
+            if clock_set and self.situation.driver is not None:
+                motion.leap(path_time)
+            else:
+                motion.advance(path_time)
 
     def send(
         self, plan: Plan, samples: Samples, start: float | None = None, *, elapsed: float = 0.0
@@ -265,8 +268,9 @@ def _status(work: Work) -> Status:
         silent = situation.settings.joint_state_timeout
         stale = f"no joint_states for {silent:g} s: see that the driver runs"
         return replace(status, activity=Activity.FAULT, code="stale_joint_states", message=stale)
-    if situation.mode is DriverMode.PAUSED:
-        return replace(status, activity=Activity.PAUSED, message="paused: it goes on at `resume`")
+    if situation.driver is not None and situation.mode is DriverMode.PAUSED:
+        message = situation.driver.message or "paused: it goes on at `resume`"
+        return replace(status, activity=Activity.PAUSED, message=message)
     signs = work.state in (State.OPENING, State.SIGNING)
     if signs and current is not None and current.plan is not None:
         plan = current.plan

@@ -12,6 +12,7 @@ from rclpy.action import ActionClient
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.task import Future
+from std_srvs.srv import Trigger
 from teo_sign_msgs.msg import DriverState
 from trajectory_msgs.msg import JointTrajectory
 
@@ -57,6 +58,7 @@ class DriverLink:
         self._node = node
         self._on_report = on_report
         self._on_refused = on_refused
+        self._stop = node.create_client(Trigger, "stop")
         self._topic = node.create_publisher(JointTrajectory, "joint_trajectory", 10)
         self._action: ActionClient | None = None
         if interface == ACTION:
@@ -87,10 +89,18 @@ class DriverLink:
         sent = self._action.send_goal_async(FollowJointTrajectory.Goal(trajectory=trajectory))
         sent.add_done_callback(lambda future: self._on_answer(number, future))
 
+    def halt(self) -> None:
+        """Have the driver stop the robot by itself."""
+        if self._stop.service_is_ready():
+            self._stop.call_async(Trigger.Request())
+        else:
+            self._node.get_logger().error("expected the driver to serve `stop`, it does not: stop the robot")
+
     def close(self) -> None:
         """Disconnect."""
         if self._action is not None:
             self._action.destroy()
+        self._node.destroy_client(self._stop)
         self._node.destroy_publisher(self._topic)
         self._node.destroy_subscription(self._states)
 

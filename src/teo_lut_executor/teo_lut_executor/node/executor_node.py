@@ -24,6 +24,7 @@ from teo_lut_executor.execution.interface import (
     DriverReport,
     Effect,
     Finished,
+    HaltReady,
     PlanWanted,
     ReturnWanted,
     Sentence,
@@ -234,6 +235,8 @@ class ExecutorNode(SelfStartingNode):
                 case StopReady():
                     stop = to_stop(self._queue.limits.names, event.end, event.lead)
                     self._driver.send(event.number, stop)
+                case HaltReady():
+                    self._driver.halt()
                 case Begun():
                     self._journal.begun(event.ticket)
                 case Status():

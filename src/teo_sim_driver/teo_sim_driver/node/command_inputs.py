@@ -12,8 +12,10 @@ from typing import NamedTuple
 from builtin_interfaces.msg import Time
 from control_msgs.msg import SpeedScalingFactor
 from control_msgs.srv import QueryTrajectoryState
+from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
+from rclpy.task import Future
 from std_srvs.srv import Trigger
 from trajectory_msgs.msg import JointTrajectory
 
@@ -175,15 +177,37 @@ class OperatorServices:
             rearm: Ends a stop or a fault; raises `DriverError`.
         """
         self._node, self._follower, self._rearm_joints = node, follower, rearm
+        self._waiting: list[Future] = []  # to be re-armed; each is done when the robot is at rest or stopped
+        beside = ReentrantCallbackGroup()  # the steps go on while it waits
+        node.create_service(Trigger, "rearm", self._on_rearm, callback_group=beside)
         for name, callback in (
             ("stop", self._stop),
-            ("rearm", self._rearm),
             ("pause", self._pause),
             ("resume", self._resume),
         ):
             node.create_service(Trigger, name, lambda _, response, do=callback: self._answer(do, response))
         node.create_subscription(SpeedScalingFactor, "speed_scaling_input", self._on_scaling, 10)
         node.create_service(QueryTrajectoryState, "query_state", self._on_query)
+
+    def step(self) -> None:
+        """Re-arm a robot that has come to rest, where somebody waits for it."""
+        if not self._follower.slows_down:
+            self._end_waiting(stopped=False)
+
+    def _end_waiting(self, *, stopped: bool) -> None:
+        for waiting in self._waiting:
+            waiting.set_result(stopped)
+        self._waiting.clear()
+
+    async def _on_rearm(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        stopped = False
+        if self._follower.slows_down:
+            self._waiting.append(at_rest := Future())
+            stopped = await at_rest
+        return self._answer(self._stopped_again if stopped else self._rearm, response)
+
+    def _stopped_again(self) -> str:
+        raise DriverError("stopped_again", "expected it to come to rest, it was stopped again: re-arm it")
 
     def _now(self) -> int:
         now: int = self._node.get_clock().now().nanoseconds
@@ -199,6 +223,7 @@ class OperatorServices:
         return response
 
     def _stop(self) -> str:
+        self._end_waiting(stopped=True)
         remaining = self._follower.block(Mode.STOPPED, "stopped by the service `stop`", self._now())
         where = f"at rest in {remaining:.2f} s" if remaining > 0.0 else "at rest"
         return f"stopped: {where}; call `rearm` before the next trajectory"
@@ -213,9 +238,11 @@ class OperatorServices:
 
     def _resume(self) -> str:
         if not self._follower.resume(self._now()):
-            mode = self._follower.mode
-            instead = ": call `rearm`" if mode in (Mode.STOPPED, Mode.FAULT) else ""
-            raise DriverError("not_paused", f"expected a pause to end, it is {mode}{instead}")
+            report = self._follower.report()
+            instead = f": {report.reason}" if report.reason else ""
+            if report.mode in (Mode.STOPPED, Mode.FAULT):
+                instead += ": call `rearm`"
+            raise DriverError("not_paused", f"expected a pause to end, it is {report.mode}{instead}")
         return f"resumed: {self._follower.mode}"
 
     def _on_scaling(self, message: SpeedScalingFactor) -> None:

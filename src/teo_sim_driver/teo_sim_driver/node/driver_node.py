@@ -145,6 +145,7 @@ class DriverNode(LifecycleNode):
         self._measured = self._plant.step(asked, self._follower.step_duration)
         self._watch(now)
         self._inputs.step(asked, self._measured, stamp)
+        self._operator.step()
         report = self._follower.report()
         for measured_at, state in self._state_line.send(self._measured, now, self._plant.faults):
             self._joint_states.publish(state, measured_at)
