@@ -17,6 +17,7 @@ import made_languages
 import numpy as np
 import pytest
 import rclpy
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from made_signs import make_sign, small_table
 from rclpy.action import ActionClient
 from rclpy.context import Context
@@ -418,6 +419,40 @@ def test_what_is_said_while_no_executor_is_there_is_signed_once_by_the_next_or_n
         assert ExecutorStatus.STATE_SIGNING not in own_graph.robot.states()
     finally:
         third.destroy_node()
+
+
+@pytest.mark.slow
+def test_without_room_for_a_journal_all_that_is_said_is_signed_once_and_the_disk_told(
+    own_graph: Graph, domain_id: int, tmp_path: Path
+) -> None:
+    kept = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)  # as the translator's
+    own_graph.robot.tokens = own_graph.robot.create_publisher(SignSentence, "sign_tokens", kept)
+    told: list[DiagnosticStatus] = []
+    own_graph.robot.create_subscription(DiagnosticArray, "diagnostics", lambda m: told.extend(m.status), 10)
+    own_graph.node.destroy_node()
+    folder = tmp_path / "full"
+    folder.mkdir()
+    (folder / f"domain{domain_id}.executor.new").symlink_to("/dev/full")
+    own_graph.robot.tokens.publish(own_graph.sentence("NOD"))  # while no executor is there
+    overrides = [
+        Parameter("lut_directory", value=str(own_graph.directory)),
+        Parameter("journal", value=str(folder)),
+    ]
+    node = ExecutorNode(context=own_graph.node.context, parameter_overrides=overrides)
+    own_graph.robot.statuses.clear()
+    own_graph.executor.add_node(node)
+    try:
+        assert node.start()
+        own_graph.publish(own_graph.sentence("TURN"))
+        own_graph.publish(own_graph.sentence("Ω"))
+        own_graph.rest(signed=2)
+        assert own_graph.refused() == [("unknown_sign", "text 3")]
+        signed = [s.utterance_id for s in own_graph.robot.statuses if s.state == ExecutorStatus.STATE_SIGNING]
+        assert list(dict.fromkeys(signed)) == ["text 1", "text 2"]
+        own_graph.spin_until(lambda: any("No space left" in s.message for s in told))
+        assert told[-1].level == DiagnosticStatus.WARN
+    finally:
+        node.destroy_node()
 
 
 @pytest.mark.slow
