@@ -17,6 +17,7 @@ import made_languages
 import numpy as np
 import pytest
 import rclpy
+from action_msgs.msg import GoalStatus
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from made_signs import make_sign, small_table
 from rclpy.action import ActionClient
@@ -251,6 +252,17 @@ def test_a_goal_gets_feedback_and_a_result(graph: Graph) -> None:
     graph.spin_until(lambda: bool(graph.refused()))
     assert graph.refused() == [("unknown_sign", unknown.utterance_id)]
     client.destroy()
+
+
+def test_the_result_of_a_goal_that_the_executor_does_not_know_is_no_success(graph: Graph) -> None:
+    result = ExecuteSentence.Impl.GetResultService  # asked as of a goal that an executor before took
+    client = graph.robot.create_client(result, "execute_sentence/_action/get_result")
+    graph.spin_until(client.service_is_ready)
+    answer = graph.wait(client.call_async(result.Request()))
+    assert answer.status == GoalStatus.STATUS_UNKNOWN
+    assert answer.result.code == ExecuteSentence.Result.UNKNOWN != ExecuteSentence.Result.SUCCESS
+    assert "has ended" in answer.result.message
+    graph.robot.destroy_client(client)
 
 
 def test_a_canceled_goal_brings_the_robot_back_to_rest(graph: Graph) -> None:
