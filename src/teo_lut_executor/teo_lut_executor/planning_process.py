@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import contextlib
+import signal
 import socket
 import subprocess
 import sys
@@ -16,6 +17,14 @@ from multiprocessing.connection import Connection
 from teo_lut_executor.execution.interface import PlanWanted, ReturnWanted
 from teo_lut_executor.planning_worker import Answer, NotPlanned, Opened, PlannerSettings, Ready
 
+# Time after which a plan that is not there is not coming [s], and so much more for each token: the process is
+# killed then. On two loaded cores the slowest of random sentences took 171 s for 40 tokens.
+_PLANNING_DEADLINE = 20.0
+_PLANNING_DEADLINE_OF_TOKEN = 6.0
+
+# The same for a process that loads [s]: that takes 7 s of a core, and minutes where others go first.
+_LOADING_DEADLINE = 600.0
+
 # How long the process may take to end once its socket is closed [s]; it is killed then.
 _END_TIMEOUT = 1.0
 
@@ -24,7 +33,10 @@ _COMMAND = "from teo_lut_executor.planning_worker import main; main()"
 
 
 class PlanningProcess:
-    """A planner in another process; it is started again if it dies."""
+    """A planner in another process; one that dies, or does not answer in time, is started again.
+
+    What it was planning is tried once more.
+    """
 
     def __init__(self, settings: PlannerSettings, wake: Callable[[], object]) -> None:
         """Start the process.
@@ -37,7 +49,9 @@ class PlanningProcess:
         self._wake = wake
         self._lock = threading.Lock()
         self._answers: deque[Answer] = deque()
-        self._open: list[int] = []  # numbers of the requests that are not answered yet
+        self._open: dict[int, PlanWanted | ReturnWanted] = {}  # not answered yet, by number, in order
+        self._lost_with = 0  # number of the request that the process before this one died with
+        self._deadline = threading.Timer(0.0, int)
         self._closed = False
         self.ready = False
         self.restarts = 0
@@ -46,7 +60,9 @@ class PlanningProcess:
     def ask(self, wanted: PlanWanted | ReturnWanted) -> None:
         """Have something planned."""
         with self._lock:
-            self._open.append(wanted.number)
+            self._open[wanted.number] = wanted
+            if len(self._open) == 1:
+                self._set_deadline()
             self._send(wanted)
 
     def configure(self, settings: PlannerSettings) -> None:
@@ -66,6 +82,7 @@ class PlanningProcess:
         """End the process."""
         with self._lock:
             self._closed = True
+            self._deadline.cancel()
             self._send(None)  # it ends, and with it the thread that hears it
         self._end()
         self._thread.join(_END_TIMEOUT)
@@ -88,6 +105,22 @@ class PlanningProcess:
         self._send(self._settings)
         self._thread = threading.Thread(target=self._hear, args=(self._connection,), daemon=True)
         self._thread.start()
+        self._set_deadline()
+
+    def _set_deadline(self) -> None:
+        """Kill the process if the answer that is next does not come in time: its end is noticed then."""
+        self._deadline.cancel()
+        if self.ready and not self._open:
+            return
+        seconds = _LOADING_DEADLINE
+        if self.ready:
+            wanted = next(iter(self._open.values()))
+            tokens = wanted.sentence.tokens if isinstance(wanted, PlanWanted) else ()
+            seconds = _PLANNING_DEADLINE + _PLANNING_DEADLINE_OF_TOKEN * len(tokens)
+        # A thread of its own: the others may wait for the process, whose socket is full or half read.
+        self._deadline = threading.Timer(seconds, self._process.kill)
+        self._deadline.daemon = True
+        self._deadline.start()
 
     def _send(self, request: object) -> None:
         # Where it has died, the thread that hears it notices, and names what it was asked.
@@ -111,7 +144,8 @@ class PlanningProcess:
                 if isinstance(answer, Ready):
                     self.ready = True
                 elif not isinstance(answer, Opened):
-                    self._open.remove(answer.number)
+                    del self._open[answer.number]
+                self._set_deadline()
                 self._answers.append(answer)
             self._wake()
         with self._lock:
@@ -120,14 +154,20 @@ class PlanningProcess:
         self._wake()
 
     def _begin_again(self) -> None:
-        """The process died: name what it was planning, and start another."""
+        """The process died: start another, which tries what this one was planning, once more only."""
         self._end()
         self.ready = False
         self.restarts += 1
-        status = self._process.returncode
-        message = f"the planner's process ended with status {status} while it planned: it was started again"
-        self._answers.extend(
-            NotPlanned(number=number, code="planner_lost", message=message) for number in self._open
-        )
-        self._open.clear()
+        number = next(iter(self._open), 0)
+        if number and number == self._lost_with:
+            del self._open[number]
+            status = self._process.returncode
+            message = (
+                f"the planner's process ended twice while it planned this, now with status {status}"
+                f"{' (killed, perhaps as no plan came in time)' if status == -signal.SIGKILL else ''}"
+            )
+            self._answers.append(NotPlanned(number=number, code="planner_lost", message=message))
+        self._lost_with = number
         self._start()
+        for wanted in self._open.values():
+            self._send(wanted)

@@ -17,6 +17,8 @@ import made_languages
 import numpy as np
 import pytest
 import rclpy
+from action_msgs.msg import GoalStatus
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from made_signs import make_sign, small_table
 from rclpy.action import ActionClient
 from rclpy.context import Context
@@ -219,16 +221,14 @@ def test_an_executor_that_is_not_active_moves_nothing_and_keeps_the_queue(graph:
     assert graph.robot.statuses[-2].utterance_id == "text 2"
 
 
-def test_a_planner_that_is_killed_is_started_again_and_what_it_planned_is_named(graph: Graph) -> None:
+def test_a_planner_that_is_killed_is_started_again_and_what_it_planned_is_signed(graph: Graph) -> None:
     graph.spin_until(lambda: graph.node._planning.ready)
     os.kill(graph.node._planning.pid, signal.SIGSTOP)
-    lost = graph.sentence("NOD")
-    graph.publish(lost)
+    graph.publish(graph.sentence("NOD"))
     graph.spin_until(lambda: graph.robot.states()[-1] == ExecutorStatus.STATE_WAITING)
     os.kill(graph.node._planning.pid, signal.SIGKILL)
-    graph.spin_until(lambda: graph.refused() == [("planner_lost", lost.utterance_id)])
-    graph.publish(graph.sentence("TURN"))
     graph.rest(signed=1)
+    assert graph.refused() == []
 
 
 def test_a_goal_gets_feedback_and_a_result(graph: Graph) -> None:
@@ -252,6 +252,17 @@ def test_a_goal_gets_feedback_and_a_result(graph: Graph) -> None:
     graph.spin_until(lambda: bool(graph.refused()))
     assert graph.refused() == [("unknown_sign", unknown.utterance_id)]
     client.destroy()
+
+
+def test_the_result_of_a_goal_that_the_executor_does_not_know_is_no_success(graph: Graph) -> None:
+    result = ExecuteSentence.Impl.GetResultService  # asked as of a goal that an executor before took
+    client = graph.robot.create_client(result, "execute_sentence/_action/get_result")
+    graph.spin_until(client.service_is_ready)
+    answer = graph.wait(client.call_async(result.Request()))
+    assert answer.status == GoalStatus.STATUS_UNKNOWN
+    assert answer.result.code == ExecuteSentence.Result.UNKNOWN != ExecuteSentence.Result.SUCCESS
+    assert "has ended" in answer.result.message
+    graph.robot.destroy_client(client)
 
 
 def test_a_canceled_goal_brings_the_robot_back_to_rest(graph: Graph) -> None:
@@ -420,6 +431,40 @@ def test_what_is_said_while_no_executor_is_there_is_signed_once_by_the_next_or_n
         assert ExecutorStatus.STATE_SIGNING not in own_graph.robot.states()
     finally:
         third.destroy_node()
+
+
+@pytest.mark.slow
+def test_without_room_for_a_journal_all_that_is_said_is_signed_once_and_the_disk_told(
+    own_graph: Graph, domain_id: int, tmp_path: Path
+) -> None:
+    kept = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)  # as the translator's
+    own_graph.robot.tokens = own_graph.robot.create_publisher(SignSentence, "sign_tokens", kept)
+    told: list[DiagnosticStatus] = []
+    own_graph.robot.create_subscription(DiagnosticArray, "diagnostics", lambda m: told.extend(m.status), 10)
+    own_graph.node.destroy_node()
+    folder = tmp_path / "full"
+    folder.mkdir()
+    (folder / f"domain{domain_id}.executor.new").symlink_to("/dev/full")
+    own_graph.robot.tokens.publish(own_graph.sentence("NOD"))  # while no executor is there
+    overrides = [
+        Parameter("lut_directory", value=str(own_graph.directory)),
+        Parameter("journal", value=str(folder)),
+    ]
+    node = ExecutorNode(context=own_graph.node.context, parameter_overrides=overrides)
+    own_graph.robot.statuses.clear()
+    own_graph.executor.add_node(node)
+    try:
+        assert node.start()
+        own_graph.publish(own_graph.sentence("TURN"))
+        own_graph.publish(own_graph.sentence("Ω"))
+        own_graph.rest(signed=2)
+        assert own_graph.refused() == [("unknown_sign", "text 3")]
+        signed = [s.utterance_id for s in own_graph.robot.statuses if s.state == ExecutorStatus.STATE_SIGNING]
+        assert list(dict.fromkeys(signed)) == ["text 1", "text 2"]
+        own_graph.spin_until(lambda: any("No space left" in s.message for s in told))
+        assert told[-1].level == DiagnosticStatus.WARN
+    finally:
+        node.destroy_node()
 
 
 @pytest.mark.slow

@@ -339,6 +339,20 @@ def test_a_sentence_waits_while_the_driver_is_silent_and_the_silence_is_told(wor
     assert world.finished() == [(ticket, Outcome.SUCCESS)]
 
 
+def test_a_sentence_whose_plan_does_not_come_is_cleared_like_those_that_wait(world: World) -> None:
+    world.run(0.1)
+    world.planning_time = 1e6
+    tickets = [world.sign("TÚ"), world.sign("A")]
+    world.run(1.0)
+    world.planning_time = 0.0
+    world.take(world.queue.clear(world.now))
+    assert world.finished() == [(ticket, Outcome.CANCELED) for ticket in tickets]
+    assert [status.code for status in world.statuses() if status.code] == ["cleared", "cleared"]
+    following = world.sign("N")
+    world.run_until(lambda: len(world.finished()) == 3)
+    assert world.finished()[2] == (following, Outcome.SUCCESS)
+
+
 def test_planning_that_takes_long_costs_no_sentence(world: World) -> None:
     world.run(0.1)
     world.planning_time = 2.0

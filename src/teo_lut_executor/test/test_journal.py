@@ -2,6 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import resource
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -95,3 +98,63 @@ def test_two_executors_do_not_share_a_journal(path: Path) -> None:
     with pytest.raises(BlockingIOError):
         Journal(path)
     journal.close()
+
+
+@contextmanager
+def full_disk(size: int) -> Iterator[None]:
+    """Files of this process grow to this size [bytes] and no further."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+
+
+def test_what_a_full_disk_does_not_take_is_known_told_and_written_when_it_does(path: Path) -> None:
+    journal = begun(path)
+    message = MessageKey(1, "text", 0)
+    journal.accepted(1, sentence("A"), 1.0)
+    with full_disk(path.stat().st_size + 40):  # a part of the next line
+        journal.accepted(2, sentence("TÚ"), 2.0, message=message)
+        journal.ended(1)
+        assert "large" in journal.problem and journal.knows(message)
+    journal.begun(2)
+    assert journal.problem == ""
+    journal.close()
+    assert Journal(path).left == (Kept(sentence("TÚ"), 2.0, 1),)
+
+
+def test_the_journal_of_before_is_known_and_stays_while_a_full_disk_takes_no_other(path: Path) -> None:
+    first = begun(path)
+    message = MessageKey(1, "text", 0)
+    first.accepted(1, sentence("TÚ"), 1.0, message=message)
+    first.close()
+    with full_disk(0):
+        second = begun(path)
+        second.accepted(2, sentence("A"), 2.0)
+        assert second.kept and second.problem and second.knows(message)
+        second.close()
+    assert [kept.sentence.utterance_id for kept in Journal(path).left] == ["TÚ"]
+
+
+def test_a_journal_whose_folder_cannot_be_made_is_kept_in_memory(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("no folder")
+    journal = begun(tmp_path / "file" / "executor.jsonl")
+    journal.accepted(1, sentence("TÚ"), 1.0, message=MessageKey(1, "text", 0))
+    assert journal.kept and journal.problem and journal.knows(MessageKey(1, "text", 0))
+
+
+def test_spoilt_lines_are_counted_and_their_journal_set_aside(path: Path) -> None:
+    journal = begun(path)
+    for ticket, text in enumerate(("TÚ", "A", "N")):
+        journal.accepted(ticket, sentence(text), 1.0)
+    journal.close()
+    spoilt = path.read_bytes().replace(b'"utterance_id": "A"', b'"utterance_id": 123')
+    path.write_bytes(spoilt)
+    journal = begun(path)
+    assert [kept.sentence.utterance_id for kept in journal.left] == ["TÚ", "N"]
+    assert journal.unread == 1
+    assert path.with_suffix(".spoilt").read_bytes() == spoilt
+    journal.close()
+    assert Journal(path).unread == 0

@@ -2,16 +2,20 @@
 # SPDX-License-Identifier: Apache-2.0
 """What was accepted, begun and ended, in a file that outlives the process.
 
-A line of JSON for each event is written at once. It reaches the disk when the system likes: the file outlives
-a process that is killed, not a power cut. A last line that is torn is passed over.
+A line for each event is written at once: a checksum, and JSON. It reaches the disk when the system likes: the
+file outlives a process that is killed, not a power cut. A last line that is torn is passed over. What a full
+disk does not take is written later.
 """
 
 from __future__ import annotations
 
 import fcntl
 import json
+import zlib
 from collections.abc import Mapping
+from contextlib import ExitStack
 from dataclasses import asdict
+from io import FileIO
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -53,7 +57,13 @@ class Kept(NamedTuple):
 
 
 class Journal:
-    """Writes down what becomes of sentences."""
+    """Writes down what becomes of sentences.
+
+    Attributes:
+        left: What the executor before this one accepted and did not end.
+        unread: Lines of its journal that are spoilt: `begin` keeps such a journal, beside the new one.
+        problem: Why not all is written, and would be forgotten if this process were killed; empty if all is.
+    """
 
     def __init__(self, path: Path | None) -> None:
         """Open the journal of one executor, and read what the one before it left.
@@ -64,21 +74,33 @@ class Journal:
                 keeps nothing.
 
         Raises:
-            OSError: It cannot be read or written, or another executor uses it (`BlockingIOError`).
+            BlockingIOError: Another executor uses it.
         """
         self.left: tuple[Kept, ...] = ()
+        self.unread = 0
+        self.problem = ""
         self._path = path
         self._messages: dict[MessageKey, None] = {}
+        self._files = ExitStack()
+        self._file: FileIO | None = None
+        self._unwritten = b""
+        self._awaits_place = False
         if path is None:
             return
-        path.parent.mkdir(parents=True, exist_ok=True)
-        self._lock = path.with_suffix(".lock").open("w")
-        fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        before = _Contents(path)
-        self.left = tuple(before.kept.values())
-        self._messages = before.messages
         self._new = path.with_suffix(".new")
-        self._file = self._new.open("w", encoding="utf-8", buffering=1)  # a line at a time
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            lock = self._files.enter_context(path.with_suffix(".lock").open("w"))
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            before = _Contents(path)
+            self.left, self.unread = tuple(before.kept.values()), before.unread
+            self._messages = before.messages
+            self._file = self._files.enter_context(self._new.open("wb", buffering=0))
+        except BlockingIOError:
+            self.close()
+            raise
+        except OSError as error:
+            self.problem = str(error)
         for message in self._messages:
             self._write({"message": message})
 
@@ -89,8 +111,8 @@ class Journal:
 
     def begin(self) -> None:
         """Take the place of the journal before, now that all it left was accepted anew or ended."""
-        if self._path is not None:
-            self._new.replace(self._path)
+        self._awaits_place = True
+        self._save()
 
     def knows(self, message: MessageKey) -> bool:
         """Whether a message was accepted or refused before, perhaps by an executor before this one."""
@@ -135,13 +157,31 @@ class Journal:
 
     def close(self) -> None:
         """Write no more."""
-        if self._path is not None:
-            self._file.close()
-            self._lock.close()
+        self._files.close()
+        self._file = None
 
     def _write(self, entry: dict[str, Any]) -> None:
-        if self._path is not None:
-            self._file.write(json.dumps(entry, ensure_ascii=False) + "\n")
+        if self._file is not None:
+            text = json.dumps(entry).encode()
+            self._unwritten += b"%08x %s\n" % (zlib.crc32(text), text)
+            self._save()
+
+    def _save(self) -> None:
+        """Write what is not written yet; once all is, the place of the journal before can be taken."""
+        if self._file is None or self._path is None:
+            return
+        try:
+            while self._unwritten:
+                self._unwritten = self._unwritten[self._file.write(self._unwritten) :]
+            if self._awaits_place:
+                if self.unread:
+                    self._path.replace(self._path.with_suffix(".spoilt"))
+                self._new.replace(self._path)
+                self._awaits_place = False
+        except OSError as error:
+            self.problem = str(error)
+        else:
+            self.problem = ""
 
 
 class _Contents:
@@ -150,17 +190,22 @@ class _Contents:
     Attributes:
         kept: Sentences that were accepted and not ended, in their order, by their ticket.
         messages: The latest that were accepted or refused, in their order.
+        unread: Lines that are spoilt, or of another version; the others count.
     """
 
     def __init__(self, path: Path) -> None:
         self.kept: dict[int, Kept] = {}
         self.messages: dict[MessageKey, None] = {}
-        lines = path.read_text(encoding="utf-8", errors="replace").splitlines() if path.exists() else []
-        for line in lines:
+        self.unread = 0
+        lines = path.read_bytes().split(b"\n") if path.exists() else [b""]
+        for line in lines[:-1]:  # behind the last end of a line is nothing, or a line that is torn
+            checksum, _, text = line.partition(b" ")
             try:
-                self._add(json.loads(line))
+                if int(checksum, 16) != zlib.crc32(text):
+                    raise ValueError(checksum)
+                self._add(json.loads(text))
             except (ValueError, KeyError, TypeError):
-                continue  # torn, or of another version: the others still count
+                self.unread += 1
 
     def _add(self, entry: Mapping[str, Any]) -> None:
         if "message" in entry:

@@ -117,10 +117,10 @@ class ExecutionQueue:
         return self._cancel_current("stopped on request, at rest again")
 
     def clear(self, now: float) -> list[Effect]:
-        """Forget every sentence that waits, and name it; the current one is signed to its end."""
+        """Forget every sentence that the robot has not begun, and name it; another is signed to its end."""
         self._work.tick(now)
         cleared = PlanError("cleared", "the queue was cleared")
-        effects: list[Effect] = []
+        effects = happen(self._work, Event.CLEARED)
         for job in tuple(self._work.waiting):
             effects += self._forget_and_name(job, cleared)
         return effects + news(self._work)

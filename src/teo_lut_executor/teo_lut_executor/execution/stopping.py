@@ -67,7 +67,7 @@ def end_blocked(work: Work, error: PlanError) -> list[Effect]:
 
 
 def put_back(work: Work, _: object = None) -> list[Effect]:
-    """Give up a plan that is not there yet: it is wanted again when the robot may move again."""
+    """Give up a plan that is not there yet; the sentence waits again, first of all."""
     work.asked = 0
     if work.current is not None and not work.current.canceled:
         work.waiting.appendleft(work.current)

@@ -26,6 +26,7 @@ class Event(enum.Enum):
     CANCELED_LATE = "the same, after its last sign, on the way to rest"
     REPLACED = "a newer text takes the place of a sentence that is planned"
     DEACTIVATED = "the executor is deactivated"
+    CLEARED = "the queue is cleared"
     # What the planner answers to the latest request.
     OPENED = "the first motion is planned"
     PLANNED = "the plan is there"
@@ -199,6 +200,7 @@ def _rows() -> Mapping[Event, Mapping[State, _Cell]]:
         Event.REPLACED: when((opening,), stopping.end_when_replaced, opening)
         | when((signs,), stopping.end_when_replaced, signs),
         Event.DEACTIVATED: when(anywhere, stopping.deactivate, stops),
+        Event.CLEARED: when((planning,), stopping.put_back, standing),
         Event.OPENED: when((planning,), signing.open_sentence, opening),
         Event.PLANNED: when((planning,), signing.sign, signs)
         | when((planning_rest,), signing.go_to_rest, returning)

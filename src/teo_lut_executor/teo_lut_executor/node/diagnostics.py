@@ -11,6 +11,7 @@ import numpy as np
 
 from teo_common.diagnostics import Diagnosis, Level
 from teo_lut_executor.execution.interface import Activity, Outcome, Status
+from teo_lut_executor.execution.journal import Journal
 
 # Latest plans whose times are kept; enough for a 99th percentile.
 _KEPT = 1000
@@ -58,7 +59,13 @@ class Statistics:
 
 
 def diagnose(
-    statistics: Statistics, *, active: bool, queued: int, planner_restarts: int, others_refused: int
+    statistics: Statistics,
+    *,
+    active: bool,
+    queued: int,
+    planner_restarts: int,
+    others_refused: int,
+    journal: Journal,
 ) -> Diagnosis:
     """How the executor is; a sentence that it refuses is no fault of its own.
 
@@ -68,6 +75,7 @@ def diagnose(
         queued: Sentences that wait.
         planner_restarts: How often the process that plans has died.
         others_refused: Trajectories of others that the driver has refused.
+        journal: Where sentences are written down.
     """
     status = statistics.status
     activity = Activity.WAITING if status is None else status.activity
@@ -79,8 +87,14 @@ def diagnose(
         "planning p99 [ms]": statistics.planning(99.0),
         "planner restarts": str(planner_restarts),
         "trajectories of others refused": str(others_refused),
+        "journal problem": journal.problem,
+        "journal lines spoilt": str(journal.unread),
         "last problem": statistics.last_problem,
         **{f"problem {code}": str(count) for code, count in sorted(statistics.codes.items())},
     }
     message = status.message if active and status is not None else values["state"]
-    return Diagnosis(_LEVELS.get(activity, Level.OK) if active else Level.OK, message, values)
+    level = _LEVELS.get(activity, Level.OK) if active else Level.OK
+    if journal.problem:
+        level = max(level, Level.WARN)
+        message += f"; a killed executor would forget sentences: {journal.problem}"
+    return Diagnosis(level, message, values)

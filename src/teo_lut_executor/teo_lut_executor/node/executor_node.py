@@ -281,6 +281,10 @@ class ExecutorNode(SelfStartingNode):
             self._intake.give_feedback(progress)
 
     def _publish_diagnostics(self) -> None:
+        if self._journal.problem:
+            self.get_logger().warning(
+                f"the journal is not written: {self._journal.problem}", throttle_duration_sec=60.0
+            )
         self._diagnostics.publish(
             diagnose(
                 self._statistics,
@@ -288,6 +292,7 @@ class ExecutorNode(SelfStartingNode):
                 queued=self._queue.queued,
                 planner_restarts=self._planning.restarts,
                 others_refused=self._driver.others_refused,
+                journal=self._journal,
             )
         )
 

@@ -125,7 +125,7 @@ def _never_called(goal: ServerGoalHandle) -> ExecuteSentence.Result:
 
 
 def open_journal(node: Node, folder: str) -> Journal:
-    """The journal of an executor; one that keeps nothing where it cannot be kept.
+    """The journal of an executor; one that keeps nothing where another executor uses it.
 
     Args:
         node: Whose it is; its full name and DDS domain name the file.
@@ -137,9 +137,10 @@ def open_journal(node: Node, folder: str) -> Journal:
     file = f"domain{os.environ.get('ROS_DOMAIN_ID', '0')}.{name}.jsonl"
     try:
         return Journal(Path(folder).expanduser() / file)
-    except OSError as error:
-        node.get_logger().warning(f"no journal is kept, a killed executor forgets sentences: {error}")
-        return Journal(None)
+    except BlockingIOError:
+        journal = Journal(None)
+        journal.problem = f"another executor uses {file}"
+        return journal
 
 
 def _expired(waited: float) -> PlanError:
@@ -219,6 +220,10 @@ class SentenceIntake:
 
     def take_over_journal(self) -> None:
         """Sign what an executor before this one was killed with, or name it."""
+        if self._journal.unread:
+            self._node.get_logger().error(
+                f"{self._journal.unread} lines of the journal are spoilt: passed over, and kept as `.spoilt`"
+            )
         for kept in self._journal.left:
             waited = time.time() - kept.accepted
             if kept.attempts >= self._queue.settings.attempts:

@@ -11,7 +11,7 @@ from std_srvs.srv import Trigger
 from teo_sign_msgs.msg import SignToken
 from teo_sign_msgs.srv import GetSign, ListQueue, ListSigns
 
-from teo_lut_executor.execution.interface import Effect
+from teo_lut_executor.execution.interface import Effect, Status
 from teo_lut_executor.execution.queue import ExecutionQueue
 from teo_lut_executor.node.messages import sign_trajectory
 from teo_signs.errors import LutError
@@ -89,9 +89,10 @@ class Services:
         return response
 
     def _on_clear_queue(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        before = self._queue.queued
-        self._carry_out(self._queue.clear(self._now()))
-        response.success, response.message = True, f"{before} sentences forgotten"
+        effects = self._queue.clear(self._now())
+        forgotten = sum(isinstance(effect, Status) and effect.code == "cleared" for effect in effects)
+        self._carry_out(effects)
+        response.success, response.message = True, f"{forgotten} sentences forgotten"
         return response
 
 
