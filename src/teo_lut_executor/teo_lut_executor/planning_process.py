@@ -18,8 +18,9 @@ from teo_lut_executor.execution.interface import PlanWanted, ReturnWanted
 from teo_lut_executor.planning_worker import Answer, NotPlanned, Opened, PlannerSettings, Ready
 
 # Time after which a plan that is not there is not coming [s], and so much more for each token: the process is
-# killed then. On two loaded cores the slowest of random sentences took 171 s for 40 tokens.
-_PLANNING_DEADLINE = 20.0
+# killed then. On two cores the slowest of random sentences took 171 s for 40 tokens with a load of seven, and
+# two letters 40 s with one of eighteen.
+_PLANNING_DEADLINE = 60.0
 _PLANNING_DEADLINE_OF_TOKEN = 6.0
 
 # The same for a process that loads [s]: that takes 7 s of a core, and minutes where others go first.
