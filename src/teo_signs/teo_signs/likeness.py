@@ -10,9 +10,9 @@ handshape by the letter that it looks like: `Handshapes` names it so.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from itertools import combinations
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,12 +66,24 @@ class Difference:
 
 def nearest_pairs(robot: Robot, signs: Iterable[Sign]) -> list[Difference]:
     """Every pair of signs, the most alike first; two names of one sign are no pair."""
-    seen = [(sign, [_appearance(robot, sign, side) for side in SIDES]) for sign in signs]
-    found = [
-        _difference(first, second, zip(one, other, strict=True))
-        for (first, one), (second, other) in combinations(seen, 2)
-        if not _one_form(first, second)
-    ]
+    signs = list(signs)
+    hands = [_appearances(robot, signs, side) for side in SIDES] if signs else []
+    found: list[Difference] = []
+    for index, first in enumerate(signs):
+        rows = np.max([_differences(hand, index) for hand in hands], axis=0).tolist()
+        for second, (handshape, orientation, movement, place) in zip(signs[index + 1 :], rows, strict=True):
+            if not _one_form(first, second):
+                spelled = "letter" in (first.kind, second.kind)
+                found.append(
+                    Difference(
+                        first=first.gloss,
+                        second=second.gloss,
+                        handshape=handshape,
+                        orientation=orientation,
+                        movement=movement,
+                        place=0.0 if spelled else place,
+                    )
+                )
     return sorted(found, key=lambda difference: difference.seen)
 
 
@@ -79,21 +91,25 @@ def _one_form(first: Sign, second: Sign) -> bool:
     return first.knots.shape == second.knots.shape and np.allclose(first.knots, second.knots, atol=_ONE_FORM)
 
 
-@dataclass(frozen=True, kw_only=True)
-class _Appearance:
-    """One hand in a sign."""
+class _Appearances(NamedTuple):
+    """One hand in each sign; axes of space come before moments, which are summed up faster then."""
 
     local_tips: Array
-    """Finger tips in palm axes [m]. Shape (moments, digits, 3)."""
+    """Finger tips in palm axes [m]. Shape (signs, 3, moments, digits)."""
     palms: Array
-    """Orientations of the palm. Shape (moments, 3, 3)."""
+    """Orientations of the palm. Shape (signs, 9, moments)."""
     ways: Array
-    """Finger tips from their middle over the sign [m]. Shape (moments, digits, 3)."""
-    place: Array
-    """Middle of the palm's places [m]. Shape (3,)."""
+    """Finger tips from their middle over the sign [m]. Shape (signs, 3, moments, digits)."""
+    places: Array
+    """Middle of the palm's places [m]. Shape (signs, 3)."""
 
 
-def _appearance(robot: Robot, sign: Sign, side: Side) -> _Appearance:
+def _appearances(robot: Robot, signs: Sequence[Sign], side: Side) -> _Appearances:
+    return _Appearances(*map(np.stack, zip(*(_appearance(robot, sign, side) for sign in signs), strict=True)))
+
+
+def _appearance(robot: Robot, sign: Sign, side: Side) -> tuple[Array, Array, Array, Array]:
+    """The rows of one sign in `_Appearances`."""
     moments = np.linspace(0.0, sign.duration, _MOMENTS)
     positions = np.column_stack([np.interp(moments, sign.times, column) for column in sign.knots.T])
     hand = robot.humanoid.file.hand
@@ -106,32 +122,23 @@ def _appearance(robot: Robot, sign: Sign, side: Side) -> _Appearance:
         ]
     )
     palms, tips = places[:, 0], places[:, 1:, :3, 3]
-    local = np.einsum("tij,tki->tkj", palms[:, :3, :3], tips - palms[:, None, :3, 3])
-    return _Appearance(
-        local_tips=local,
-        palms=palms[:, :3, :3],
-        ways=tips - tips.mean(axis=0),
-        place=palms[:, :3, 3].mean(axis=0),
-    )
+    local = np.einsum("tij,tki->jtk", palms[:, :3, :3], tips - palms[:, None, :3, 3])
+    ways = np.moveaxis(tips - tips.mean(axis=0), 2, 0)
+    return local, palms[:, :3, :3].reshape(_MOMENTS, 9).T, ways, palms[:, :3, 3].mean(axis=0)
 
 
-def _difference(first: Sign, second: Sign, hands: Iterable[tuple[_Appearance, _Appearance]]) -> Difference:
-    shape = turn = movement = place = 0.0
-    for one, other in hands:
-        cosines = (np.einsum("tij,tij->t", one.palms, other.palms) - 1.0) / 2.0
-        tips = np.linalg.norm(one.local_tips - other.local_tips, axis=2).max(axis=1).mean()
-        shape = max(shape, float(tips))
-        turn = max(turn, float(np.arccos(np.clip(cosines, -1.0, 1.0)).mean()))
-        movement = max(movement, float(np.linalg.norm(one.ways - other.ways, axis=2).max()))
-        place = max(place, float(np.linalg.norm(one.place - other.place)))
-    spelled = "letter" in (first.kind, second.kind)
-    return Difference(
-        first=first.gloss,
-        second=second.gloss,
-        handshape=shape,
-        orientation=turn,
-        movement=movement,
-        place=0.0 if spelled else place,
+def _differences(hands: _Appearances, index: int) -> Array:
+    """Handshape, orientation, movement and place between a sign and all behind it. Shape (signs, 4)."""
+    local, palms, ways, places = (each[index + 1 :] - each[index] for each in hands)
+    # Of rotations with a distance d by Frobenius, the angle between them is arccos(1 - d^2 / 4).
+    cosines = 1.0 - (palms**2).sum(axis=1) / 4.0
+    return np.column_stack(
+        [
+            np.sqrt((local**2).sum(axis=1).max(axis=2)).mean(axis=1),
+            np.arccos(np.clip(cosines, -1.0, 1.0)).mean(axis=1),
+            np.sqrt((ways**2).sum(axis=1).max(axis=(1, 2))),
+            np.sqrt((places**2).sum(axis=1)),
+        ]
     )
 
 

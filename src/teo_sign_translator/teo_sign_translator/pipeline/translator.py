@@ -4,8 +4,10 @@
 
 from __future__ import annotations
 
+import re
 import unicodedata
 from collections.abc import Sequence, Set
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -13,7 +15,13 @@ from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.model_files import read_card
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.output.output_words import Spelling, divide, number_tokens, without_carried
+from teo_sign_translator.output.output_words import (
+    OutputWord,
+    Spelling,
+    divide,
+    number_tokens,
+    without_carried,
+)
 from teo_sign_translator.output.senses import SENSES, Sense, read_senses, with_senses
 from teo_sign_translator.output.sign_choice import (
     INCORPORATED_NUMBERS,
@@ -48,6 +56,9 @@ DEFAULT_MIN_CONFIDENCE = 0.7
 
 #: Tokens that a `teo_sign_msgs/SignSentence` can hold; a longer sentence is divided.
 MAX_SENTENCE_TOKENS = 1024
+
+# A title in quotes begins with a capital; behind a colon it is what somebody says.
+_TITLE = re.compile(r"(?<!: )[«“\"]([^\W\d_a-zà-ÿ][^»”\"]+)[»”\"]")
 
 # Characters that an error names, so that a page in another script gives a readable message.
 _NAMED_CHARACTERS = 5
@@ -243,6 +254,8 @@ class Translator:
         if unmarked and translated_sentence.recognised is not None:
             kind = translated_sentence.recognised
         signed, dropped = without_carried(translated_sentence.output_words, self._spelling)
+        if signs is not None:
+            signed = _titles_as_names(signed, text[clauses[0].start : clauses[-1].stop])
         meant = with_senses(signed, clauses, self._senses, signs, self._spelling)
         chosen = self._chooser.choose(meant, signs)
         output_words = with_numbers_incorporated(chosen, signs, self._incorporated)
@@ -297,6 +310,15 @@ class Translator:
                 f"expected words in Latin letters, got {named}{more}, which {self._spelling.name} cannot "
                 "spell: transcribe them",
             )
+
+
+def _titles_as_names(output_words: Sequence[OutputWord], sentence: str) -> list[OutputWord]:
+    """Output words, those of a work's title in quotes as names: nothing is signed in place of them."""
+    titled = {word for title in _TITLE.findall(sentence) for word in re.findall(r"\w+", title)}
+    return [
+        replace(word, is_name=True) if word.words and titled.issuperset(word.words) else word
+        for word in output_words
+    ]
 
 
 def _shortened(text: str, length: int = 20) -> str:

@@ -68,3 +68,11 @@ def test_what_no_token_stands_for_is_listed() -> None:
     )
     assert {"La", "de", "en"} <= {*sentence.dropped}
     assert TRANSLATOR.translate("La casa").as_dict()["sentences"][0]["dropped"] == ["La"]
+
+
+def test_a_title_in_quotes_has_its_own_signs_or_letters_and_no_substitutes() -> None:
+    signs = {"VIVIR", "CASA", "PELÍCULA"}
+    for quoted in ("«La vida en casa»", '"La vida en casa"', "“La vida en casa”"):
+        title = str(TRANSLATOR.translate(f"He visto la película {quoted}.", signs)).split()
+        assert "VIVIR" not in title and {"PELÍCULA", "CASA", "V-I-D-A"} <= {*title}
+    assert "VIVIR" in str(TRANSLATOR.translate("Dijo: «La vida es así».", signs))
