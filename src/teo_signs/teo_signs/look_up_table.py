@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 from teo_sign_languages import DEFAULT_LANGUAGE, Language, LanguageError, load_language
@@ -57,24 +57,36 @@ def user_lut_directory(language: str = DEFAULT_LANGUAGE, robot: str = DEFAULT_RO
     return own if (code, robot) == (DEFAULT_LANGUAGE, DEFAULT_ROBOT) else own / code / robot
 
 
-def held_entry(table: Path, gloss: str, *, robot: str = DEFAULT_ROBOT) -> Path | None:
-    """The file that a gloss has in a table; None if it has none.
+def holding_tables(
+    table: Path, *, language: str = DEFAULT_LANGUAGE, robot: str = DEFAULT_ROBOT
+) -> tuple[Path, ...]:
+    """The directories whose entries a table holds: it and, beneath the user's own, the package's.
 
     Args:
-        table: Directory of the entries. What the package's table holds counts as well for the user's own, as
-            it is signed where that has nothing.
-        gloss: Name of the sign.
+        table: Directory of the entries.
+        language: Code of the language whose table it is.
         robot: Name of the robot whose table it is.
 
     Raises:
-        LutError: The directory cannot be looked at ("no_directory").
+        LutError: "unknown_language", "invalid_language".
+    """
+    known = _language(language)
+    beneath = table == user_lut_directory(language, robot) and robot in known.robots
+    return (table, known.table(robot)) if beneath else (table,)
+
+
+def held_entry(tables: Iterable[Path], gloss: str) -> Path | None:
+    """The file that a gloss has in tables; None if it has none.
+
+    Args:
+        tables: Directories of entries, as of `holding_tables`.
+        gloss: Name of the sign.
+
+    Raises:
+        LutError: A directory cannot be looked at ("no_directory").
     """
     name = f"{gloss_key(gloss)}.json"
-    directories = [table]
-    language = _language(DEFAULT_LANGUAGE)
-    if table == user_lut_directory(robot=robot) and robot in language.robots:
-        directories.append(language.table(robot))
-    for directory in directories:
+    for directory in tables:
         path = directory / name
         try:
             if path.exists():

@@ -278,7 +278,7 @@ def _refuse_mixed(sign: Sign, path: Path) -> None:
     Raises:
         LutError: "other_language" or "other_robot".
     """
-    beside = next((other for other in sorted(path.parent.glob("[!.]*.json")) if other != path), None)
+    beside = next((other for other in path.parent.glob("[!.]*.json") if other != path), None)
     if beside is None:
         return
     try:
@@ -286,7 +286,8 @@ def _refuse_mixed(sign: Sign, path: Path) -> None:
         language, robot = entry.get("language", DEFAULT_LANGUAGE), entry.get("robot", DEFAULT_ROBOT)
     except (OSError, ValueError, AttributeError):  # a broken entry is named when it is asked for
         return
-    if robot == sign.robot and _language_code(language) == _language_code(sign.language):
+    same = language == sign.language or _language_code(language) == _language_code(sign.language)
+    if robot == sign.robot and same:
         return
     raise LutError(
         "other_language" if robot == sign.robot else "other_robot",

@@ -14,7 +14,14 @@ import numpy as np
 import pytest
 
 from teo_sign_languages import load_language
-from teo_signs.look_up_table import Lut, LutError, default_lut_directory, held_entry, user_lut_directory
+from teo_signs.look_up_table import (
+    Lut,
+    LutError,
+    default_lut_directory,
+    held_entry,
+    holding_tables,
+    user_lut_directory,
+)
 from teo_signs.sign import sign_warnings
 from teo_signs.sign_file import format_sign
 
@@ -115,10 +122,10 @@ def test_a_table_that_is_named_is_read_alone(tmp_path: Path) -> None:
 
 
 def test_a_gloss_of_the_package_is_held_for_the_users_own_table_alone(tmp_path: Path) -> None:
-    assert held_entry(user_lut_directory(), "A") == TABLE / "A.json"
-    assert held_entry(tmp_path, "A") is None
+    assert held_entry(holding_tables(user_lut_directory()), "A") == TABLE / "A.json"
+    assert held_entry(holding_tables(tmp_path), "A") is None
     copy_of("A", user_lut_directory(), "A")
-    assert held_entry(user_lut_directory(), "A") == user_lut_directory() / "A.json"
+    assert held_entry(holding_tables(user_lut_directory()), "A") == user_lut_directory() / "A.json"
 
 
 def test_the_table_holds_alphabet_digits_demonstrated_signs_and_every_score_without_a_warning() -> None:

@@ -17,6 +17,7 @@ from teo_sign_capture.cli.options import (
     End,
     Hands,
     KindOption,
+    LanguageCode,
     Notes,
     Picture,
     Replace,
@@ -26,6 +27,7 @@ from teo_sign_capture.cli.options import (
     upper_case,
 )
 from teo_sign_capture.cli.reporting import TerminalReporter, fail
+from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import LutError
 
 _DAY = "%Y-%m-%d"
@@ -77,8 +79,14 @@ def import_pose(
         int | None, typer.Option(min=1, help="SignWriting: signs at a time; one for each core without it.")
     ] = None,
     report: Annotated[
-        Path | None, typer.Option(help="SignWriting: what became of each entry, .tsv or .json.")
+        Path | None,
+        typer.Option(
+            help="SignWriting: JSON file of what became of each entry; where it is there, what it says is "
+            "not tried again, except with --replace."
+        ),
     ] = None,
+    language: LanguageCode = DEFAULT_LANGUAGE,
+    as_json: Annotated[bool, typer.Option("--json", help="SignWriting: tell a program.")] = False,
 ) -> None:
     """Capture a sign from a clip in which a person's points were found, lifted by the lengths of limbs.
 
@@ -97,6 +105,7 @@ def import_pose(
             fail(LutError("not_installed", str(error)))
         import_signwriting(
             signwriting,
+            language=language,
             table=lut,
             scores=scores,
             replace=replace,
@@ -106,6 +115,7 @@ def import_pose(
             any_term=any_term,
             jobs=jobs,
             report=report,
+            as_json=as_json,
         )
         return
     if file is None or gloss is None:

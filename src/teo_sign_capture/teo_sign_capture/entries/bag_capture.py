@@ -29,7 +29,7 @@ from teo_sign_capture.recordings.recording import (
 )
 from teo_sign_capture.recordings.skeleton_bag import write_skeletons
 from teo_signs.errors import LutError
-from teo_signs.look_up_table import held_entry
+from teo_signs.look_up_table import held_entry, holding_tables
 from teo_signs.sign import gloss_key
 from teo_signs.sign_file import read_sign, save_sign
 from teo_signs.sign_schema import Gloss, Handedness, Kind, Standing
@@ -220,7 +220,7 @@ def check_free(gloss: str, settings: Settings) -> None:
         reason = error.errors(include_url=False)[0]["msg"].removeprefix("Value error, ")
         raise LutError("bad_gloss", f"--gloss: expected {reason}, got {gloss!r}") from error
     try:
-        taken = held_entry(settings.table, gloss, robot=settings.robot)
+        taken = held_entry(holding_tables(settings.table, robot=settings.robot), gloss)
     except LutError as error:
         raise LutError("not_written", f"expected a place to write to, got: {error}") from error
     if taken is not None and not settings.replace and settings.trial is None:

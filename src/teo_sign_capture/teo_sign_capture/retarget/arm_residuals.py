@@ -192,31 +192,33 @@ class ArmProblem:
     ) -> Quadratic:
         weights, chain = self._weights, self._chain
         points = poses.points(goals.local[frames])
-        palm, fingers = poses.rotation[:, :, 2], poses.rotation[:, :, 0]
-        upper_arm = _unit(poses.origins[:, chain.elbow] - chain.shoulder)
-        fore_arm = _unit(poses.origins[:, chain.wrist] - poses.origins[:, chain.elbow])
+        elbow = poses.origins[:, chain.elbow]
+        # Directions: weight, how it is, how it should be, how many joints move it.
+        aims = [
+            (weights.palm, poses.rotation[:, :, 2], goals.palm, chain.count),
+            (weights.fingers, poses.rotation[:, :, 0], goals.fingers, chain.count),
+        ]
+        if weights.upper_arm:  # scores leave the arm free, and need not pay for it
+            aims.append((weights.upper_arm, _unit(elbow - chain.shoulder), goals.upper_arm, chain.elbow))
+        if weights.fore_arm:
+            fore_arm = _unit(poses.origins[:, chain.wrist] - elbow)
+            aims.append((weights.fore_arm, fore_arm, goals.fore_arm, chain.elbow + 1))
         at_place = weights.in_air + (weights.on_body - weights.in_air) * goals.contact[frames, None]
         off = points - goals.place[frames]
         away, astray = self._astray(off, at_place, goals.contact[frames])
         residuals = np.concatenate(
             [
                 away,
-                weights.palm * (palm - goals.palm[frames]),
-                weights.fingers * (fingers - goals.fingers[frames]),
-                weights.upper_arm * (upper_arm - goals.upper_arm[frames]),
-                weights.fore_arm * (fore_arm - goals.fore_arm[frames]),
+                *(weight * (aim - wanted[frames]) for weight, aim, wanted, _ in aims),
                 self._pulls * (positions - self._easy),
             ],
             axis=1,
         )
-        of_upper_arm, of_fore_arm = (np.arange(chain.count) < end for end in (chain.elbow, chain.elbow + 1))
+        joints = np.arange(chain.count)
         slopes = np.concatenate(
             [
                 astray @ poses.point_jacobian(points),
-                weights.palm * poses.direction_jacobian(palm),
-                weights.fingers * poses.direction_jacobian(fingers),
-                weights.upper_arm * poses.direction_jacobian(upper_arm) * of_upper_arm,
-                weights.fore_arm * poses.direction_jacobian(fore_arm) * of_fore_arm,
+                *(weight * poses.direction_jacobian(aim) * (joints < end) for weight, aim, _, end in aims),
                 np.broadcast_to(np.diag(self._pulls), (len(positions), chain.count, chain.count)),
             ],
             axis=1,

@@ -4,20 +4,19 @@
 
 from __future__ import annotations
 
-import json
 import os
+import sys
+import time
 from collections import Counter
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-from teo_sign_capture.cli.reporting import fail
+from teo_sign_capture.cli.reporting import JsonReporter, Reporter, TerminalReporter, fail, write_json
 from teo_signs.errors import LutError
-from teo_signs.look_up_table import Lut, user_lut_directory
+from teo_signs.look_up_table import Lut, holding_tables, user_lut_directory
 
 if TYPE_CHECKING:
     from teo_sign_authoring.signwriting.dictionary_import import ImportJob, ImportOutcome, ImportSettings
@@ -90,9 +89,14 @@ def _terms(table: Lut) -> dict[str, str]:
 _NO_LICENCE = "not stated"
 
 
+# [s] A report is written so often: what is refused meanwhile is tried again if the machine fails.
+_REPORT_EVERY = 10.0
+
+
 def import_signwriting(
     file: Path,
     *,
+    language: str,
     table: Path | None,
     scores: Path | None,
     replace: bool,
@@ -102,84 +106,107 @@ def import_signwriting(
     any_term: bool,
     jobs: int | None,
     report: Path | None,
+    as_json: bool,
 ) -> None:
     """Import a dictionary, with its progress, and say what became of it.
 
     Args:
         file: SPML, or term and FSW in a table of tab-separated values.
+        language: Code of the language whose signs they are.
         table: Directory of the table; the user's own if None.
         scores: Directory for the scores as well.
         replace: Whether to make entries anew that are there and no better founded.
         source: What entries name as their source.
         licence: Terms of the dictionary; "not stated" if None.
         only: Glosses that are wanted; all if empty.
-        any_term: Whether terms that are no Spanish words are taken as typed.
+        any_term: Whether terms that are no known words are taken as typed.
         jobs: Processes; one for each core if None.
-        report: File for what became of each entry, .tsv or .json.
+        report: File for what became of each entry; what it says of before is not tried again.
+        as_json: Whether to tell a program: an object a line.
     """
     from teo_sign_authoring.signwriting.dictionary_file import GlossNames, read_dictionary
-    from teo_sign_authoring.signwriting.dictionary_import import ImportSettings, find_jobs
+    from teo_sign_authoring.signwriting.dictionary_import import ImportSettings, find_jobs, known_outcomes
 
+    reporter: Reporter = JsonReporter() if as_json else TerminalReporter()
     try:
-        if report is not None and report.suffix not in (".tsv", ".json"):
-            raise LutError("bad_arguments", f"--report: expected a file .tsv or .json, got {report.name}")
-        found = find_jobs(read_dictionary(file), GlossNames(any_term=any_term), only)
+        table = table or user_lut_directory(language)
+        if table.is_dir():
+            Lut.open(table, language=language)  # refuses one of another language before hours are spent
+        found = find_jobs(read_dictionary(file), GlossNames(language=language, any_term=any_term), only)
         settings = ImportSettings(
-            table=table or user_lut_directory(),
+            table=table,
+            holding=holding_tables(table, language=language),
+            language=language,
             scores=scores,
             replace=replace,
             source=source,
             licence=licence or _NO_LICENCE,
         )
-        outcomes = _run(found, settings, jobs or os.cpu_count() or 1)
-        if report is not None:
-            _write_report(report, outcomes)
+        known = {} if report is None else known_outcomes(report, found, settings)
+        with reporter:
+            outcomes = _run(found, known, settings, jobs or os.cpu_count() or 1, report, reporter)
     except LutError as error:
         fail(error)
-    _tell(outcomes, settings)
-    if not any(outcome.result != "refused" for outcome in outcomes):
+    _tell(outcomes, settings, as_json)
+    if not any(outcome.result in ("whole", "with_losses", "as_before") for outcome in outcomes):
         raise typer.Exit(1)
 
 
-def _run(found: list[ImportJob], settings: ImportSettings, jobs: int) -> list[ImportOutcome]:
-    from teo_sign_authoring.signwriting.dictionary_import import run_import
+def _run(
+    found: list[ImportJob],
+    known: dict[int, ImportOutcome],
+    settings: ImportSettings,
+    jobs: int,
+    report: Path | None,
+    reporter: Reporter,
+) -> list[ImportOutcome]:
+    """Import what is not known yet; the report has what was done, however it ends."""
+    from teo_sign_authoring.signwriting.dictionary_import import run_import, write_report
 
-    columns = (TextColumn("importing"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=_errors, transient=True, disable=not _errors.is_terminal) as progress:
-        task = progress.add_task("", total=len(found))
+    outcomes = dict(known)
+    written = time.monotonic()
 
-        def done(_: ImportOutcome) -> None:
-            progress.advance(task)
+    def write() -> None:
+        if report is not None:
+            write_report(report, [outcomes[number] for number in sorted(outcomes)])
 
-        return run_import(found, settings, jobs, done)
+    def done(outcome: ImportOutcome) -> None:
+        nonlocal written
+        outcomes[outcome.number] = outcome
+        reporter.progress("importing", len(outcomes), len(found))
+        if time.monotonic() - written > _REPORT_EVERY:
+            write()
+            written = time.monotonic()
 
-
-def _write_report(path: Path, outcomes: list[ImportOutcome]) -> None:
-    from teo_common.atomic_files import write_atomically
-    from teo_sign_authoring.signwriting.dictionary_import import report_lines
-
-    if path.suffix == ".json":
-        text = json.dumps([asdict(outcome) for outcome in outcomes], ensure_ascii=False, indent=1) + "\n"
-    else:
-        text = "\n".join(report_lines(outcomes)) + "\n"
     try:
-        write_atomically(path, text.encode())
-    except OSError as error:
-        raise LutError("not_written", f"--report: expected a place to write to, got: {error}") from error
+        run_import([job for job in found if job.entry.number not in known], settings, jobs, done)
+    finally:
+        write()
+    return [outcomes[number] for number in sorted(outcomes)]
 
 
-def _tell(outcomes: list[ImportOutcome], settings: ImportSettings) -> None:
+def _tell(outcomes: list[ImportOutcome], settings: ImportSettings, as_json: bool) -> None:
     results = Counter(outcome.result for outcome in outcomes)
-    reasons = Counter(outcome.code for outcome in outcomes if outcome.code)
+    reasons = Counter((outcome.result, outcome.code) for outcome in outcomes if outcome.code)
+    if as_json:
+        counts = {name: results[name] for name in ("whole", "with_losses", "as_before")}
+        refused, skipped = (
+            {code: count for (result, code), count in reasons.most_common() if result == wanted}
+            for wanted in ("refused", "skipped")
+        )
+        written = {"table": str(settings.table), "entries": len(outcomes), **counts}
+        write_json({**written, "refused": refused, "skipped": skipped}, sys.stdout)
+        return
     _output.print(
-        f"{settings.table}: {results['whole']} compiled whole, {results['with_losses']} with losses, "
-        f"{results['as_before']} as before, {results['refused']} refused of {len(outcomes)} entries",
+        f"{settings.table}: of {len(outcomes)} entries {results['whole']} compiled whole, "
+        f"{results['with_losses']} with losses, {results['as_before']} as before, "
+        f"{results['refused']} refused, {results['skipped']} skipped",
         soft_wrap=True,
         markup=False,
     )
-    for code, count in reasons.most_common():
+    for (result, code), count in reasons.most_common():
         example = next(outcome for outcome in outcomes if outcome.code == code)
-        line = f"  {count} {code}: {example.term}: {example.message}"
+        line = f"  {result}: {count} {code}: {example.term}: {example.message}"
         _output.print(line, soft_wrap=True, markup=False)
 
 

@@ -195,6 +195,7 @@ class ScoreKnots:
         }
         rows = finger_rows(self._table.hand)
         self._hand_swings = {"thumb": 1} | {_FINGERS[row]: 2 + at for at, row in enumerate(rows)}
+        self._clear: dict[bytes, Array] = {}
         self._swing_sizes = np.concatenate([np.ones(2), axis_shares(self._table)])
 
     def of(
@@ -235,12 +236,19 @@ class ScoreKnots:
         right, left = (self._humanoid.hand(side) for side in ("right", "left"))
         if right[0] in joints:
             columns = [joints.index(name) for name in right]
-            clear[columns] = with_clear_thumb(self._table, knot[columns])
+            clear[columns] = self._with_clear_thumb(knot[columns])
         if left[0] in joints:
             columns = [joints.index(name) for name in left]
-            hand = with_clear_thumb(self._table, mirrored_hand(self._humanoid, knot[columns]))
+            hand = self._with_clear_thumb(mirrored_hand(self._humanoid, knot[columns]))
             clear[columns] = mirrored_hand(self._humanoid, hand)
         return clear
+
+    def _with_clear_thumb(self, hand: Array) -> Array:
+        """A handshape whose thumb keeps out of the fingers; a sign has few, and asks often. Shape (axes,)."""
+        key = hand.tobytes()
+        if key not in self._clear:
+            self._clear[key] = with_clear_thumb(self._table, hand)
+        return self._clear[key]
 
     def _head(self, moment: Posture) -> list[float]:
         """Joints of the head [rad]; towards the right is a negative turn about the upward axis."""
@@ -263,7 +271,7 @@ class ScoreKnots:
                 hand = self._with_swing(
                     hand, index, _swings(hand[index], size, limits.lower[index], limits.upper[index])
                 )
-        hand = with_clear_thumb(self._table, hand)
+        hand = self._with_clear_thumb(hand)
         if side == "left":
             arm, hand = mirrored(self._humanoid, arm), mirrored_hand(self._humanoid, hand)
         return np.concatenate([arm, hand])

@@ -357,9 +357,9 @@ def _with_closing(beats: list[Beat], closing: Closing) -> list[Beat]:
     after = change.get(drawn)
     if after is None or (not closing.opens and drawn in ("fist", "bunched", "pinch", "two_flick", "ring")):
         # The hand is drawn as it is in the end.
-        before = back.get(drawn)
-        assert before is not None, "every hand opens or closes"
-        before, after = before, drawn
+        if drawn not in back:
+            raise UnreadableError("movement", f"{drawn}: TEO has no handshape that it opens or closes from")
+        before, after = back[drawn], drawn
     else:
         before = drawn
     if len(beats) == 1:

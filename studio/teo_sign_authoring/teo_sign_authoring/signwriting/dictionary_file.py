@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Files of signs: a SignPuddle export (SPML), or a table of term and Formal SignWriting.
 
-People type "carcel 2", "¿quien? 13" or "Mar (azul)" for a term: as a gloss it is the Spanish word with its
-accents, in capitals, without marks; variants are told apart by a number that is added.
+People type "carcel 2", "¿quien? 13" or "Mar (azul)" for a term: as a gloss it is the word with its accents,
+in capitals, without marks; variants are told apart by a number that is added.
 """
 
 from __future__ import annotations
@@ -16,6 +16,8 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from teo_common.text_folding import strip_marks
+from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
+from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
 from teo_signs.errors import LutError
 from teo_signs.sign_schema import MAX_GLOSS_LENGTH
@@ -119,29 +121,42 @@ _WORD = re.compile(r"[^\W\d_]+")
 class GlossNames:
     """Gives terms their glosses."""
 
-    def __init__(self, *, any_term: bool = False) -> None:
-        """Load the Spanish words.
+    def __init__(self, *, language: str = DEFAULT_LANGUAGE, any_term: bool = False) -> None:
+        """Load the words of the spoken language.
 
         Args:
-            any_term: Whether words that are not known as Spanish are taken as they are typed.
+            language: Code of the sign language.
+            any_term: Whether words that are not known are taken as they are typed.
+
+        Raises:
+            LutError: "unknown_language", "invalid_language"; "no_words" if the language has no words and
+                they are asked for.
         """
-        self._morphology = Morphology.load()
+        try:
+            text = load_language(language).text
+        except LanguageError as error:
+            raise LutError(error.code, str(error)) from error
+        self._morphology = Morphology.load(text) if (text / "morphology").is_dir() else None
+        if self._morphology is None and not any_term:
+            raise LutError("no_words", f"expected --any-term for {language}, a language without known words")
         self._any_term = any_term
 
     def gloss(self, term: str) -> str | None:
-        """The gloss of a term without the number of its variant; None if it is not a Spanish one."""
+        """The gloss of a term without the number of its variant; None if it is not a known one."""
         plain = _VARIANT.sub("", _REMARK.sub(" ", unicodedata.normalize("NFC", term))).strip()
         words = _WORD.findall(plain)
         if not words or re.search(r"\d", plain):
             return None
-        written = [self._spanish(word.lower()) for word in words]
+        written = [self._known(word.lower()) for word in words]
         if None in written and not self._any_term:
             return None
         gloss = "_".join((spelled or word).upper() for spelled, word in zip(written, words, strict=True))
         return gloss if len(gloss) <= MAX_GLOSS_LENGTH else None
 
-    def _spanish(self, word: str) -> str | None:
+    def _known(self, word: str) -> str | None:
         """A word with its accents; None if it is not known."""
+        if self._morphology is None:
+            return None
         readings = self._morphology.readings(word)
         headwords = [each for each in readings if strip_marks(each.lemma) == strip_marks(word)]
         for reading in headwords:
@@ -155,7 +170,7 @@ class GlossNames:
                 continue
             try:
                 written = self._morphology.inflect(reading.lemma, reading.tag)
-            except ValueError:
+            except TranslationError:
                 continue
             if strip_marks(written) == strip_marks(word):
                 return written

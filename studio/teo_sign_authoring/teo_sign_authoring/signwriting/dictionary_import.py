@@ -3,17 +3,22 @@
 """A dictionary in SignWriting into the table: every sign that can be read, and why the others cannot.
 
 Signs are made in processes of this machine, each file written whole or not at all. What the table has is
-left as it is, so that an import that was stopped goes on where it was.
+left as it is, and what a report says was refused is not tried again, so that an import that was stopped goes
+on where it was.
 """
 
 from __future__ import annotations
 
 import functools
+import json
 import multiprocessing
-from collections.abc import Callable, Iterator, Sequence
+import os
+import signal
+from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
+from threading import Thread
 from typing import Any, Literal
 
 import yaml
@@ -65,7 +70,9 @@ _GAPS = (TOUCHING, 4.0, 8.0)
 # mm wide.
 _MOST_OFF_PLACE = 120.0
 
-Result = Literal["whole", "with_losses", "as_before", "refused"]
+Result = Literal["whole", "with_losses", "as_before", "refused", "skipped"]
+# What says nothing of the sign: it is tried again.
+_PASSING = frozenset({"crashed", "not_written"})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,6 +81,8 @@ class ImportSettings:
 
     Attributes:
         table: Directory of the table.
+        holding: The directories whose entries it holds.
+        language: Code of the language whose signs they are.
         scores: Directory for the scores as well; None for none.
         replace: Whether entries that are there are made anew, unless they are better founded.
         source: What the entries name as their source, before the term.
@@ -81,6 +90,8 @@ class ImportSettings:
     """
 
     table: Path
+    holding: tuple[Path, ...]
+    language: str
     scores: Path | None
     replace: bool
     source: str
@@ -93,7 +104,7 @@ class ImportJob:
 
     Attributes:
         entry: The dictionary's.
-        gloss: Its name in the table; None if the term is not a Spanish one.
+        gloss: Its name in the table; None if the term is no word of the language.
     """
 
     entry: DictionaryEntry
@@ -107,14 +118,16 @@ class ImportOutcome:
     Attributes:
         number: The entry's number in the file.
         term: Its term.
+        fsw: The sign as it is written.
         gloss: The name in the table; empty if it got none.
         result: Whether it was written.
-        code: Why it was refused; empty if it was not.
-        message: What is lost, or why it was refused; empty if nothing is.
+        code: Why it was refused or skipped; empty if it was neither.
+        message: What is lost, or why it was refused or skipped; empty if nothing is.
     """
 
     number: int
     term: str
+    fsw: str
     gloss: str
     result: Result
     code: str = ""
@@ -166,9 +179,7 @@ def run_import(
             on_done(outcomes[-1])
         return outcomes
     context = multiprocessing.get_context("spawn")  # a fork would take over locks of whatever runs here
-    with ProcessPoolExecutor(
-        workers, mp_context=context, initializer=threadpool_limits, initargs=(1,)
-    ) as pool:
+    with ProcessPoolExecutor(workers, mp_context=context, initializer=_begin_work) as pool:
         futures = {pool.submit(_import_entry, job, settings): job for job in jobs}
         try:
             for future in as_completed(futures):
@@ -185,10 +196,26 @@ def run_import(
     return sorted(outcomes, key=lambda outcome: outcome.number)
 
 
+def _begin_work() -> None:
+    """Prepare a process: one thread, Ctrl-C is the import's to hear, and it does not outlive the import."""
+    threadpool_limits(1)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    importing = multiprocessing.parent_process()
+    assert importing is not None
+
+    def end_with_it() -> None:
+        importing.join()
+        os._exit(1)
+
+    Thread(target=end_with_it, daemon=True).start()
+
+
 def _import_entry(job: ImportJob, settings: ImportSettings) -> ImportOutcome:
     """Import one sign, in whatever process this is."""
     if job.gloss is None:
-        return _refused(job, "unknown_term", f"expected a known word, got {job.entry.term!r}")
+        return _skipped(job, "unknown_term", f"expected a known word, got {job.entry.term!r}")
+    if not job.entry.fsw:
+        return _skipped(job, "no_sign", "expected a sign in Formal SignWriting, got an entry without one")
     try:
         kept = _kept(job.gloss, settings)
         if kept:
@@ -215,20 +242,27 @@ def _made(job: ImportJob, gloss: str, settings: ImportSettings) -> tuple[Compila
     Raises:
         LutError: Why it cannot be made.
     """
+    refused: tuple[Score, LutError] | None = None
     for gap in _GAPS:
         compilation = compile_fsw(
             gloss, job.entry.fsw, source=f'{settings.source}, entry "{job.entry.term}"', gap=gap
         )
+        if refused is not None and compilation.score.steps == refused[0].steps:
+            raise refused[1]  # hands that touch nothing are as they were
         try:
-            sign = score_sign(_robot(), compilation.score)
+            sign = score_sign(_robot(), compilation.score, language=settings.language)
         except LutError as error:
             if error.code == "self_collision" and gap != _GAPS[-1]:
+                refused = compilation.score, error
                 continue
             raise
         off = sign.quality["place_error_mm"]
         if off > _MOST_OFF_PLACE:
-            losses = (*compilation.losses, f"TEO's hand stays {off / 10.0:.0f} cm from its place")
-            compilation = replace(compilation, losses=losses)
+            raise LutError(
+                "off_place",
+                f"{gloss}: expected a hand at most {_MOST_OFF_PLACE / 10.0:.0f} cm from its place, got "
+                f"{off / 10.0:.0f} cm",
+            )
         provenance = sign.provenance.model_copy(
             update={"licence": settings.licence, "notes": "; ".join(compilation.losses)}
         )
@@ -238,7 +272,7 @@ def _made(job: ImportJob, gloss: str, settings: ImportSettings) -> tuple[Compila
 
 def _kept(gloss: str, settings: ImportSettings) -> str:
     """Why the entry that is there stays; empty if there is none, or it is to be replaced."""
-    path = held_entry(settings.table, gloss)
+    path = held_entry(settings.holding, gloss)
     if path is None:
         return ""
     if not settings.replace:
@@ -253,9 +287,18 @@ def _refused(job: ImportJob, code: str, message: str) -> ImportOutcome:
     return replace(_outcome(job, "refused", message=message), code=code)
 
 
+def _skipped(job: ImportJob, code: str, message: str) -> ImportOutcome:
+    return replace(_outcome(job, "skipped", message=message), code=code)
+
+
 def _outcome(job: ImportJob, result: Result, *, message: str) -> ImportOutcome:
     return ImportOutcome(
-        number=job.entry.number, term=job.entry.term, gloss=job.gloss or "", result=result, message=message
+        number=job.entry.number,
+        term=job.entry.term,
+        fsw=job.entry.fsw,
+        gloss=job.gloss or "",
+        result=result,
+        message=message,
     )
 
 
@@ -265,9 +308,40 @@ def _robot() -> Robot:
     return Robot.load()
 
 
-def report_lines(outcomes: Sequence[ImportOutcome]) -> Iterator[str]:
-    """A report as a table of tab-separated values, a line an entry."""
-    yield "number\tterm\tgloss\tresult\tcode\tmessage"
-    for outcome in outcomes:
-        cells = (outcome.number, outcome.term, outcome.gloss, outcome.result, outcome.code, outcome.message)
-        yield "\t".join(" ".join(str(cell).split()) for cell in cells)
+def write_report(path: Path, outcomes: Sequence[ImportOutcome]) -> None:
+    """Write what became of entries, whole or not at all, as a list of JSON objects.
+
+    Raises:
+        LutError: "not_written".
+    """
+    text = json.dumps([asdict(outcome) for outcome in outcomes], ensure_ascii=False, indent=1) + "\n"
+    try:
+        write_atomically(path, text.encode())
+    except OSError as error:
+        raise LutError("not_written", f"--report: expected a place to write to, got: {error}") from error
+
+
+def known_outcomes(
+    path: Path, jobs: Sequence[ImportJob], settings: ImportSettings
+) -> dict[int, ImportOutcome]:
+    """What a report of before says of entries that are as they were, by number: made and there, or refused.
+
+    Raises:
+        LutError: "bad_report" if the file is none.
+    """
+    if not path.exists() or settings.replace:
+        return {}
+    try:
+        told = [ImportOutcome(**each) for each in json.loads(path.read_bytes())]
+    except (OSError, ValueError, TypeError) as error:
+        raise LutError(
+            "bad_report", f"--report: expected a report of an import, or no file, got {path.name}: {error}"
+        ) from error
+    written = {job.entry.number: (job.entry.term, job.entry.fsw, job.gloss or "") for job in jobs}
+    return {
+        outcome.number: outcome
+        for outcome in told
+        if written.get(outcome.number) == (outcome.term, outcome.fsw, outcome.gloss)
+        and outcome.code not in _PASSING
+        and (outcome.code or held_entry(settings.holding, outcome.gloss) is not None)
+    }

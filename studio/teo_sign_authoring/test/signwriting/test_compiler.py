@@ -90,6 +90,7 @@ def test_the_black_arrow_of_a_lone_hand_is_the_right_hands() -> None:
     [
         ("M518x517S30a00482x482", "no_hand"),
         ("M520x520S15a00480x480S29600500x480", "movement"),
+        ("M514x521S1a120493x492S21900487x480", "movement"),  # horns that close to what TEO does not have
         (SAW, "movement"),  # a head of an arrow that is neither hand's
         ("M520x520S15a00480x480S20300500x480S17600490x500", "too_many_hands"),
         ("M520x520S15d00480x480S1f700520x520", "order"),

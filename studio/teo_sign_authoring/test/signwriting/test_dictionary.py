@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import json
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -24,6 +25,8 @@ SPML = """<?xml version="1.0" encoding="UTF-8"?>
 """
 TRAY = "M519x510S15a36480x490"
 LOOP = "M520x520S15a00480x480S29600500x480"
+# A hand high before the head, 20 cm from where TEO's can be so held.
+FAR = "M538x556S14c10480x525S20500505x535S1f720518x487S2ff00482x483S22b03510x508"
 
 
 def run(*words: object) -> Result:
@@ -105,17 +108,20 @@ def test_a_huge_file_and_none_are_refused(tmp_path: Path) -> None:
 
 
 def test_what_can_be_read_is_written_the_rest_reported_and_a_second_run_keeps_it(tmp_path: Path) -> None:
-    file = dictionary(tmp_path, f"bandeja\t{TRAY}", f"lazo\t{LOOP}", f"xqzzt\t{TRAY}", "sol\tnothing")
+    file = dictionary(
+        tmp_path, f"bandeja\t{TRAY}", f"lazo\t{LOOP}", f"xqzzt\t{TRAY}", "sol\tnothing", f"lejos\t{FAR}"
+    )
     table, report = tmp_path / "lut", tmp_path / "report.json"
     words = ("--signwriting", file, "--lut", table, "--jobs", 1, "--report", report, "--licence", "CC0-1.0")
     first = run(*words, "--scores", tmp_path / "scores")
     assert first.exit_code == 0, first.output
     outcomes = {each["term"]: each for each in json.loads(report.read_text("utf-8"))}
     assert outcomes["bandeja"]["result"] in ("whole", "with_losses")
-    assert [outcomes[term]["code"] for term in ("lazo", "xqzzt", "sol")] == [
+    assert [outcomes[term]["code"] for term in ("lazo", "xqzzt", "sol", "lejos")] == [
         "movement",
         "unknown_term",
         "bad_fsw",
+        "off_place",
     ]
     assert sorted(path.name for path in table.iterdir()) == ["BANDEJA.json"]
     sign = read_sign(table / "BANDEJA.json")
@@ -123,6 +129,8 @@ def test_what_can_be_read_is_written_the_rest_reported_and_a_second_run_keeps_it
     assert 'entry "bandeja"' in sign.provenance.source
     assert (tmp_path / "scores" / "BANDEJA.yaml").is_file()
     written = (table / "BANDEJA.json").stat().st_mtime_ns
+    assert [outcomes[term]["result"] for term in ("lazo", "xqzzt")] == ["refused", "skipped"]
+    report.unlink()
     second = run(*words)
     assert "1 as before" in second.output
     nothing = run(
@@ -130,6 +138,55 @@ def test_what_can_be_read_is_written_the_rest_reported_and_a_second_run_keeps_it
     )
     assert nothing.exit_code == 1 and "movement" in nothing.output
     assert (table / "BANDEJA.json").stat().st_mtime_ns == written
+
+
+def test_a_second_import_goes_on_after_its_report_and_tells_a_program_the_same(tmp_path: Path) -> None:
+    rows = (f"bandeja\t{TRAY}", f"lazo\t{LOOP}", f"xqzzt\t{TRAY}")
+    table, report = tmp_path / "lut", tmp_path / "report.json"
+    words = ("--lut", table, "--jobs", 1, "--report", report, "--json", "--signwriting")
+    first = run(*words, dictionary(tmp_path, *rows))
+    told = json.loads(report.read_text("utf-8"))
+    told[1]["message"] = "as it was told"
+    report.write_text(json.dumps(told), "utf-8")
+    assert run(*words, dictionary(tmp_path, *rows)).stdout == first.stdout
+    assert json.loads(report.read_text("utf-8"))[1]["message"] == "as it was told"
+    summary = json.loads(first.stdout)
+    assert summary["entries"] == 3 and summary["whole"] + summary["with_losses"] == 1
+    assert (summary["refused"], summary["skipped"]) == ({"movement": 1}, {"unknown_term": 1})
+    # What is written anew, or is not in the table any more, is tried again.
+    (table / "BANDEJA.json").unlink()
+    assert '"refused": {}' in run(*words, dictionary(tmp_path, rows[0], f"lazo\t{TRAY}", rows[2])).stdout
+    assert sorted(path.name for path in table.iterdir()) == ["BANDEJA.json", "LAZO.json"]
+    report.write_text("{", "utf-8")
+    assert "bad_report" in run(*words, dictionary(tmp_path, *rows)).output
+
+
+def test_an_import_that_is_killed_leaves_whole_entries_and_no_process_and_can_go_on(tmp_path: Path) -> None:
+    file = dictionary(tmp_path, *(f"bandeja {number}\t{TRAY}" for number in range(40)))
+    table = tmp_path / "lut"
+    words = ["lut", "import", "--signwriting", str(file), "--lut", str(table), "--jobs", "2", "--json"]
+    command = ["ros2", "run", "teo_lut_executor", *words]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as importing:
+        assert importing.stderr is not None and importing.stdout is not None
+        importing.stderr.readline()  # the first sign is made
+        importing.kill()
+        importing.stdout.read()  # ends with the last process that holds it
+    made = sorted(table.glob("[!.]*.json"))
+    assert 0 < len(made) < 40
+    for entry in made:
+        read_sign(entry)
+    second = subprocess.run(command, capture_output=True, check=True, text=True)
+    assert json.loads(second.stdout)["as_before"] == len(made)
+    assert len(list(table.glob("[!.]*.json"))) == 40
+
+
+def test_signs_of_another_language_are_named_by_its_words(tmp_path: Path) -> None:
+    file, table = dictionary(tmp_path, f"Mexico\t{TRAY}", f"sideburns\t{TRAY}"), tmp_path / "lut"
+    first = run("--signwriting", file, "--lut", table, "--jobs", 1, "--language", "ase")
+    assert read_sign(table / "MEXICO.json").language == "ase"
+    assert "expected a known word, got 'sideburns'" in first.output
+    mixed = run("--signwriting", file, "--lut", table, "--jobs", 1)
+    assert "other_language" in mixed.output and "ase" in mixed.output
 
 
 def test_a_better_founded_entry_is_not_replaced(tmp_path: Path) -> None:
