@@ -32,7 +32,7 @@ from teo_description.completed_urdf import (
 )
 from teo_description.errors import DescriptionError
 from teo_description.robot_file import RobotFile, read_robot_file
-from teo_description.robot_schema import AXES
+from teo_description.robot_schema import AXES, HandDriveSpeeds
 
 Side = Literal["left", "right"]
 SIDES: tuple[Side, Side] = ("left", "right")
@@ -264,13 +264,31 @@ class Humanoid:
             return with_speeds(self.urdf_text(), self._hand_speeds(hand_drive))
         return completed_urdf(self.urdf_path().read_text(encoding="utf-8"), self.file, str(self._path))
 
-    def _hand_speeds(self, drive: str) -> Mapping[str, float]:
+    def quickness(self, hand_drive: str = "") -> Array:
+        """Greatest acceleration and jerk of the `commanded_joints` over those of the body's joints [1].
+
+        Args:
+            hand_drive: One of `hand_drives`; empty: the default.
+
+        Raises:
+            DescriptionError: ``unknown_hand_drive``.
+        """
+        quickness = np.ones(len(self.commanded_joints))
+        if drive := hand_drive or self.default_hand_drive:
+            hands = self.columns((*self._hands["left"], *self._hands["right"]))
+            quickness[hands] = self._drive(drive).quickness
+        return quickness
+
+    def _drive(self, name: str) -> HandDriveSpeeds:
         drives = self.file.hand_drives
-        if drives is None or drive not in drives.drives:
+        if drives is None or name not in drives.drives:
             expected = f"one of {', '.join(self.hand_drives)}" if self.hand_drives else "none"
-            message = f"hand_drive: expected {expected} for {self.name}, got {drive!r}"
+            message = f"hand_drive: expected {expected} for {self.name}, got {name!r}"
             raise DescriptionError("unknown_hand_drive", message)
-        speeds = drives.drives[drive]
+        return drives.drives[name]
+
+    def _hand_speeds(self, drive: str) -> Mapping[str, float]:
+        speeds = self._drive(drive)
         of_axis = (speeds.abductor_deg, speeds.thumb_deg, *(speeds.finger_deg,) * 4)
         return {
             name: math.radians(speed)

@@ -151,11 +151,17 @@ class Hand(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
 
 
 class HandDriveSpeeds(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """How fast a drive moves the axes of a hand."""
+    """How fast a drive moves the axes of a hand, and how fast it gets there.
+
+    Attributes:
+        abductor_deg, thumb_deg, finger_deg: Greatest speeds of the axes [deg/s].
+        quickness: Greatest acceleration and jerk of the axes over those of the body's joints [1].
+    """
 
     abductor_deg: Positive
     thumb_deg: Positive
     finger_deg: Positive
+    quickness: Positive = 1.0
 
 
 class HandDrives(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

@@ -36,6 +36,18 @@ def test_a_finger_at_its_limit_winds_its_tendon_as_fast_as_the_loaded_spool(driv
         assert wound[side + 1] / step <= 34.0 / 45.0 * spool * (1.0 + 1e-9)
 
 
+@pytest.mark.parametrize(("drive", "ratio"), [("spool_380", 379.17), ("spool_1000", 968.41)])
+def test_hands_accelerate_as_their_motors_do_on_the_way_to_the_loaded_speed(drive, ratio):
+    teo = load_humanoid("teo")
+    finger = teo.file.controllers.servos.hand
+    # 12 N of the 50 with which the motor stalls pull the spring and the finger; 7 rad/s^2 are the body's.
+    mean = (1.0 - 12.0 / 50.0) * finger.torque / finger.inertia * (379.17 / ratio) / 2.0
+    hands = teo.quickness(drive)[teo.columns(LEFT_HAND + RIGHT_HAND)]
+    assert (hands * 7.0 <= 1.05 * mean).all()
+    assert (hands * 7.0 >= 0.9 * mean).all()
+    assert (np.delete(teo.quickness(drive), teo.columns(LEFT_HAND + RIGHT_HAND)) == 1.0).all()
+
+
 @pytest.mark.parametrize("drive", load_humanoid("teo").hand_drives)
 def test_a_drive_changes_the_speed_of_the_hands_alone_and_no_axis_outruns_fingers_and_body(drive):
     usual, limits = joint_limits(ALL_JOINTS), joint_limits(ALL_JOINTS, hand_drive=drive)

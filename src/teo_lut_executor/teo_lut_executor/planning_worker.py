@@ -45,8 +45,8 @@ class PlannerSettings:
         language: Code of the sign language that is signed where a sentence names none.
         lut_directory: Of the look-up table; None for the user's own and the language's.
         left_handed: Whether signs are mirrored.
-        acceleration: Greatest of every joint [rad/s^2].
-        jerk: Greatest of every joint [rad/s^3].
+        acceleration: Greatest of the body's joints [rad/s^2].
+        jerk: Greatest of the body's joints [rad/s^3].
         hand_drive: Gearmotors of the hands, one of the robot's; empty for its default.
     """
 

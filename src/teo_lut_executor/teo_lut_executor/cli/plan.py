@@ -87,9 +87,9 @@ def _plan(
     robot_name: RobotName = DEFAULT_ROBOT,
     language: LanguageCode = DEFAULT_LANGUAGE,
     acceleration: Annotated[
-        float, typer.Option(help="Greatest acceleration of every joint [rad/s^2].")
+        float, typer.Option(help="Greatest acceleration of the body's joints [rad/s^2].")
     ] = DEFAULT_ACCELERATION,
-    jerk: Annotated[float, typer.Option(help="Greatest jerk of every joint [rad/s^3].")] = DEFAULT_JERK,
+    jerk: Annotated[float, typer.Option(help="Greatest jerk of the body's joints [rad/s^3].")] = DEFAULT_JERK,
     hand_drive: Annotated[
         str, typer.Option(help="Gearmotors of the hands, one of the robot's; default: its own.")
     ] = "",

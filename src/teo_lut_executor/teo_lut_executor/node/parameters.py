@@ -89,8 +89,14 @@ PARAMETERS = (
         "`hand_drives`, where it has several; empty for its default. The driver's parameter of that name "
         "must not name slower ones.",
     ),
-    _row("acceleration", DEFAULT_ACCELERATION, 0.5, 50.0, "Greatest acceleration of every joint [rad/s^2]."),
-    _row("jerk", DEFAULT_JERK, 1.0, 1000.0, "Greatest jerk of every joint [rad/s^3]."),
+    _row(
+        "acceleration",
+        DEFAULT_ACCELERATION,
+        0.5,
+        50.0,
+        "Greatest acceleration of the body's joints [rad/s^2]; hands: times their drive's `quickness`.",
+    ),
+    _row("jerk", DEFAULT_JERK, 1.0, 1000.0, "Greatest jerk of the body's joints [rad/s^3]; hands likewise."),
     _row("period", DEFAULT_PERIOD, 0.005, 0.1, "Time between two points of a trajectory [s]."),
     _row(
         "least_clearance",

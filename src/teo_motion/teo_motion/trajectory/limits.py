@@ -15,7 +15,7 @@ from teo_description.humanoid import Humanoid, load_humanoid
 from teo_motion.trajectory.ruckig_segment import Bounds
 from teo_signs.errors import PlanError
 
-# Acceleration of every joint [rad/s^2], 401 deg/s^2: a joint is at 50 deg/s, its greatest velocity, after
+# Acceleration of the body's joints [rad/s^2], 401 deg/s^2: one is at 50 deg/s, its greatest velocity, after
 # 0.19 s and 4.8 deg. TEO's drives default to 10 deg/s^2, with which 10 deg take 2 s: no sign would be known
 # again; TEO's own gestures were played at 25 deg/s^2 and 25 deg/s. By the masses of the robot description one
 # arm joint that accelerates so needs at most 12 N m (3.2 at the elbow, 0.8 at the wrist) beside the at most
@@ -23,7 +23,7 @@ from teo_signs.errors import PlanError
 # little from more: they are short of velocity.
 DEFAULT_ACCELERATION = 7.0
 
-# Jerk of every joint [rad/s^3], 6016 deg/s^3: the acceleration builds up in 0.07 s, more than three of the
+# Jerk of the body's joints [rad/s^3], 6016 deg/s^3: acceleration builds up in 0.07 s, more than three of the
 # 0.02 s at which TEO's drives are sent set-points, so that it reaches them as a ramp and not as a step.
 DEFAULT_JERK = 105.0
 
@@ -61,12 +61,12 @@ class MotionLimits:
         jerk: float = DEFAULT_JERK,
         hand_drive: str = "",
     ) -> MotionLimits:
-        """Positions and velocities of the robot description, with one acceleration and jerk for all joints.
+        """Limits of the robot description, with one acceleration and jerk for all joints of the body.
 
         Args:
             humanoid: The robot; None: the default one.
-            acceleration: [rad/s^2], above 0.
-            jerk: [rad/s^3], above 0.
+            acceleration: [rad/s^2], above 0; hands have as much more as their drive is quicker.
+            jerk: [rad/s^3], above 0; hands likewise.
             hand_drive: Gearmotors of the hands, one of the robot's `hand_drives`; empty: its default.
 
         Raises:
@@ -79,6 +79,7 @@ class MotionLimits:
         try:
             humanoid = load_humanoid() if humanoid is None else humanoid
             limits = humanoid.limits(hand_drive=hand_drive)
+            quickness = humanoid.quickness(hand_drive)
         except DescriptionError as error:
             raise PlanError("bad_limits", str(error)) from error
         return cls(
@@ -86,8 +87,8 @@ class MotionLimits:
             lower=limits.lower,
             upper=limits.upper,
             velocity=limits.velocity,
-            acceleration=np.full(len(limits.names), acceleration),
-            jerk=np.full(len(limits.names), jerk),
+            acceleration=acceleration * quickness,
+            jerk=jerk * quickness,
         )
 
     @property
