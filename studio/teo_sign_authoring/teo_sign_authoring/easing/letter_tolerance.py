@@ -46,8 +46,8 @@ _FAR = 0.5
 _MEETING = 0.03
 # [m] Other parts of TEO keep as far apart: letters as captured keep 25 mm.
 _CLEARANCE = 0.015
-# [rad], [rad/s], [s] Step of differences; joints about as fast as TEO's, and what a letter is held
-# (`SigningStyle.letter_hold`).
+# [rad], [rad/s], [s] Step of differences; joints about as fast as TEO's, and what a letter was held
+# when the tolerances were sought.
 _STEP = 2e-3
 _SPEED, _RATE, _HOLD = np.radians(50.0), 25.0, 0.3
 # Sizes of what no tolerance bounds, by which being beyond is weighed: recognition [just seen], clearance,
