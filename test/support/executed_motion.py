@@ -23,13 +23,15 @@ from teo_description.humanoid import load_humanoid
 from teo_lut_executor.execution.interface import StopReady, TrajectoryReady
 from teo_lut_executor.node.messages import to_stop, to_trajectory
 from teo_motion.sentence.plan import Plan
-from teo_names import COMMANDED_JOINTS, HOME, joint_limits, urdf_text
+from teo_names import COMMANDED_JOINTS, HOME, LEFT_HAND, RIGHT_HAND, joint_limits, urdf_text
 from teo_sim_driver.joint_follower import JointFollower
 
 STEP = 0.001  # [s] between two positions that are looked at
 _STEP = 1_000_000  # [ns], the same
-# Limits of every joint by default, as the README of teo_motion gives them [rad/s^2], [rad/s^3].
-_ACCELERATION, _JERK = 7.0, 105.0
+# Limits of the joints by default, as the README of teo_motion gives them [rad/s^2], [rad/s^3]: four times as
+# much for hands.
+_QUICKNESS = np.where(np.isin(COMMANDED_JOINTS, LEFT_HAND + RIGHT_HAND), 4.0, 1.0)
+_ACCELERATION, _JERK = 7.0 * _QUICKNESS, 105.0 * _QUICKNESS
 # A position may be outside its limits by one count of TEO's encoders [rad].
 _COUNT = 1.5e-5
 NEAR = 0.002  # [m]; parts that are nearer than this are looked at

@@ -20,12 +20,12 @@ from teo_signs.look_up_table import Lut
 from teo_signs.sign import Sign
 from teo_signs.tokens import Kind, Token
 
-REST = load_humanoid().ready
+HANGING = load_humanoid().hanging
 
 JOINTS = (*RIGHT_ARM, *RIGHT_HAND)
 # The right hand before the chest, clear of the body; fingers open.
 BEFORE = np.array(
-    [-0.7, -0.3, 0.0, -1.2, 0.0, 0.0, *(REST[COMMANDED_JOINTS.index(name)] for name in RIGHT_HAND)]
+    [-0.7, -0.3, 0.0, -1.2, 0.0, 0.0, *(HANGING[COMMANDED_JOINTS.index(name)] for name in RIGHT_HAND)]
 )
 
 

@@ -102,7 +102,7 @@ class RestPosture(StrEnum):
     HANGING = "hanging"
     """Arms hang; out of the way of every sign."""
     READY = "ready"
-    """Forearms level, hands low before the body, as signers wait for their turn."""
+    """Forearms level, hands low before the body and half closed, as signers wait for their turn."""
 
     def of(self, humanoid: Humanoid) -> Array:
         """Positions of the commanded joints [rad]. Shape (joints,), read-only."""
