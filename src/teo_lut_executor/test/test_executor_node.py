@@ -355,6 +355,20 @@ def test_a_node_with_impossible_parameters_is_not_configured(
     rclpy.shutdown(context=context)
 
 
+def test_a_second_executor_says_that_there_is_another_and_sends_nothing(own_graph: Graph) -> None:
+    told: list[DiagnosticArray] = []
+    node = ExecutorNode(context=own_graph.robot.context)
+    own_graph.executor.add_node(node)
+    own_graph.robot.create_subscription(DiagnosticArray, "diagnostics", told.append, 10)
+    assert node.start(), "it stays, to tell"
+    own_graph.spin_until(lambda: any("other_executor" in each.status[0].message for each in told))
+    own_graph.publish(own_graph.sentence("NOD"))
+    own_graph.rest(signed=1)
+    assert node.count_publishers("joint_trajectory") == 1
+    assert own_graph.robot.states().count(ExecutorStatus.STATE_SIGNING) == 1
+    node.destroy_node()
+
+
 @pytest.mark.slow
 def test_what_a_killed_executor_left_is_signed_or_named(
     own_graph: Graph, domain_id: int, tmp_path: Path

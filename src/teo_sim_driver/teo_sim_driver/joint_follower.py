@@ -7,6 +7,8 @@ The last line of defence: whatever was computed, no step is faster than the robo
 
 from __future__ import annotations
 
+from collections import deque
+
 import numpy as np
 
 from teo_description import JointLimits
@@ -28,6 +30,17 @@ from teo_sim_driver.rules import (
 
 # Rounding of one step [rad].
 _ROUNDING = 1e-9
+
+# How many times as fast as it was sent a path is followed after a late step [1], the greatest that keeps the
+# limits of velocity: twice as fast, what was lost in 0.3 s is made good in 0.3 s, and no part is left out.
+_CATCHING_UP = (2.0, 1.5, 1.25)
+
+# Steps that tell how fast they come [1]: more than come late in a row by chance.
+_USUAL = 20
+
+# Most that is made good [s]; what is later is lost to the path, which ends so much later. At its limit of
+# velocity a joint is then less behind than the executor's `path_tolerance`.
+_MOST_LATE = 0.2
 
 
 class JointFollower:
@@ -68,6 +81,10 @@ class JointFollower:
         self.braking = braking
         self.limits = limits
         self._clock = PathClock(period)
+        self._period = period
+        self._since = 0.0  # the last step [s]
+        self._gaps = deque([period] * _USUAL, maxlen=_USUAL)  # between the last steps [s]
+        self._late = 0.0  # by which the joints are behind their path: less than a step, but after a late one
         self.step_duration = 0.0
         """Of the last step [s]."""
         self._pace = PathPace()
@@ -97,8 +114,16 @@ class JointFollower:
         return self._following and self._ending
 
     def step(self, now: int) -> MotionState:
-        """Move on to this time and return what is sent to the joints."""
-        self.step_duration = duration = self._clock.advance(now)
+        """Move on to this time [ns] and return what is sent to the joints.
+
+        After a late step they catch up with their path in several: none goes farther than the limits of
+        velocity allow in a period, as that is when the drives expect to be there. Where all the last steps
+        came more slowly, by a coarse clock or on a machine that is too slow, the shortest of them counts.
+        """
+        self._pass(now)
+        self.step_duration, self._since = self._since, 0.0
+        duration = min(self.step_duration, max(self._period, min(self._gaps)))
+        self._gaps.append(self.step_duration)
         asked = self._advance(duration)
         if asked.positions is self._sent.positions:  # holding still
             return self._sent
@@ -120,7 +145,7 @@ class JointFollower:
         Raises:
             TrajectoryError: refused; whatever was going on goes on.
         """
-        self.step(now)
+        self._pass(now)
         try:
             self._gate.check(self._following)
             if self._ending:
@@ -134,7 +159,7 @@ class JointFollower:
             raise
         self._tally.accepted += 1
         command = Command(points.columns, source, group)
-        self._path.take(trajectory, command, self._pace.progress(delay), self.braking)
+        self._path.take(trajectory, command, self._pace.progress(self._late + delay), self.braking)
         self._following = True
         return command
 
@@ -152,7 +177,7 @@ class JointFollower:
         Returns:
             Time until all of them stand still, at full pace [s]; 0 when they hold already.
         """
-        self.step(now)
+        self._pass(now)
         if command is not None and self._path.commands != (command,):
             if command.over:
                 return 0.0
@@ -160,7 +185,7 @@ class JointFollower:
         if self._following and not self._ending:
             self._ending = True
             self._turn()
-            self._advance(0.0)
+            self._move(0.0)
         return self._pace.remaining if self._following else 0.0
 
     def block(self, mode: Mode, reason: str, now: int) -> float:
@@ -196,14 +221,14 @@ class JointFollower:
         Returns:
             Time until the robot stands still [s].
         """
-        self.step(now)
+        self._pass(now)
         self._gate.paused = True
         self._turn()
         return self._pace.remaining if self._following else 0.0
 
     def resume(self, now: int) -> bool:
         """Go on after a pause; False if there was none."""
-        self.step(now)
+        self._pass(now)
         paused, self._gate.paused = self._gate.paused, False
         self._turn()
         return paused
@@ -216,7 +241,7 @@ class JointFollower:
         """
         if not 0.0 <= factor <= 1.0:
             raise DriverError("bad_factor", f"expected a speed scaling factor within 0 .. 1, got {factor}")
-        self.step(now)
+        self._pass(now)
         self._gate.scaling = factor
         self._turn()
 
@@ -243,7 +268,7 @@ class JointFollower:
             commands=tuple(command.name for command in self._path.commands),
             source=newest.source if newest else Source.NONE,
             speed_scaling=self._pace.rate,
-            path_time=self._path.time if self._following else 0.0,
+            path_time=self._path.time + self._pace.progress(self._late) if self._following else 0.0,
             path_duration=self._path.trajectory.duration if self._following else 0.0,
             reason=self._gate.reason(mode),
             accepted=self._tally.accepted,
@@ -261,7 +286,7 @@ class JointFollower:
 
         Args:
             asked: A joint asked to go to NaN stays.
-            duration: Since the last step [s].
+            duration: Since the last step, a period at most [s].
 
         Returns:
             The nearest positions to those asked that can be reached.
@@ -284,10 +309,17 @@ class JointFollower:
 
     def _path_state_in(self, delay: float) -> MotionState:
         """State on the path, at full pace: what a trajectory that takes over begins with, at any pace."""
-        return self._path.sample(self._pace.progress(delay))
+        return self._path.sample(self._pace.progress(self._late + delay))
+
+    def _pass(self, now: int) -> None:
+        """Let time pass until now [ns]; the joints move with the next step."""
+        passed = self._clock.advance(now)
+        self._since += passed
+        self._late = min(self._late + passed, _MOST_LATE) if self._following else 0.0
 
     def _turn(self) -> None:
-        """Let the pace become what it should be now."""
+        """Let the pace become what it should be now; what was lost before is not made good."""
+        self._late = 0.0
         target = 0.0 if self._ending else self._gate.pace
         if not self._following:
             self._pace.jump(target)
@@ -296,13 +328,28 @@ class JointFollower:
         self._pace.turn(target, fastest, self.braking)
 
     def _advance(self, duration: float) -> MotionState:
-        """Let time pass and return where the joints should be."""
+        """Where the joints should be after a step of so much time [s]."""
         if not self._following:
             return self._rest
-        state = self._path.advance(self._pace.advance(duration))
-        rate, change = self._pace.rate, self._pace.acceleration
+        passed = min(self._late, duration)
+        if self._late > duration > 0.0:
+            reach = self.limits.velocity * duration
+            for pace in _CATCHING_UP:
+                ahead = min(self._late, pace * duration)
+                there = self._path.sample(self._pace.progress(ahead))
+                moved = np.abs(there.positions - self._sent.positions)
+                if (moved <= reach).all() and (pace * np.abs(there.velocities) <= self.limits.velocity).all():
+                    passed = ahead
+                    break
+        self._late -= passed
+        return self._move(passed, passed / duration if duration > 0.0 else 1.0)
+
+    def _move(self, passed: float, pace: float = 1.0) -> MotionState:
+        """Let time pass on the path [s], by a step that is shorter by this factor [1]."""
+        state = self._path.advance(self._pace.advance(passed))
+        rate, change = self._pace.rate * pace, self._pace.acceleration
         ended = self._path.time >= self._path.trajectory.duration
-        if ended or (self._ending and rate == 0.0 == self._pace.remaining):
+        if ended or (self._ending and self._pace.rate == 0.0 == self._pace.remaining):
             self._hold(state.positions)
             return self._rest
         return state.at_pace(rate, change)

@@ -144,15 +144,35 @@ def test_a_clock_that_is_set_neither_stops_nor_rushes_the_motion(new_follower, s
     assert follower.report().clock_jumps == 1
 
 
-def test_a_late_step_keeps_to_the_time_of_the_path(new_follower, swing):
+def test_what_a_late_step_has_lost_is_made_good_in_the_next(new_follower, swing):
     follower, steady = new_follower(), new_follower()
     send(follower, swing(), START)
     send(steady, swing(), START)
-    follower.step(START + SECOND // 3)
-    late = follower.step(START + 7 * SECOND // 10)
-    _, positions, _ = run(steady, START, 0.7)
-    np.testing.assert_allclose(late.positions, positions[-1], atol=1e-9)
+    now, _, _ = run(follower, START, 0.8)
+    now, _, _ = run(follower, now + 15 * PERIOD, 0.4)
+    expected, positions, _ = run(steady, START, 1.35)
+    assert now == expected
+    np.testing.assert_allclose(follower.step(now).positions, positions[-1], atol=1e-9)
     assert follower.report().clock_jumps == 0
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_no_step_however_late_goes_farther_than_the_limits_of_velocity_allow_in_a_period(
+    new_follower, swing, limits, home, seed
+):
+    dice = np.random.default_rng(seed)
+    follower, now = new_follower(), START
+    send(follower, swing(angle=-1.0), now)  # 0.86 rad/s at most
+    path = [home]
+    while follower.mode is not Mode.HOLDING:
+        late = dice.uniform(0.0, 0.45) if dice.random() < 0.05 else dice.uniform(0.0, 0.01)
+        now += PERIOD // 2 + round(late * SECOND)
+        if dice.random() < 0.1:
+            follower.resume(now)  # any request between two steps
+        path.append(follower.step(now).positions)
+    assert (np.abs(np.diff(path, axis=0)) <= limits.velocity * 0.01 * 1.001 + 1e-9).all()
+    np.testing.assert_array_equal(path[-1], swing().points[-1].positions)
+    assert follower.report().limited_steps == 0
 
 
 def test_a_fault_above_the_guard_is_limited_counted_and_reported(new_follower, swing, limits):

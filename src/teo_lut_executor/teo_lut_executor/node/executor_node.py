@@ -15,7 +15,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import JointState
 from teo_sign_msgs.msg import ExecutorStatus
 
-from teo_common.diagnostics import DIAGNOSTICS_PERIOD, DiagnosticsPublisher
+from teo_common.diagnostics import DIAGNOSTICS_PERIOD, Diagnosis, DiagnosticsPublisher, Level
 from teo_common.node_process import SelfStartingNode, run_self_starting
 from teo_description.errors import DescriptionError
 from teo_lut_executor.execution.interface import (
@@ -33,6 +33,7 @@ from teo_lut_executor.execution.interface import (
     TrajectoryReady,
 )
 from teo_lut_executor.execution.queue import ExecutionQueue
+from teo_lut_executor.node.claim import claim
 from teo_lut_executor.node.diagnostics import Statistics, diagnose
 from teo_lut_executor.node.driver_link import DriverLink
 from teo_lut_executor.node.messages import to_status, to_stop, to_trajectory
@@ -67,9 +68,14 @@ class ExecutorNode(SelfStartingNode):
         """
         super().__init__("executor", PARAMETERS, context=context, parameter_overrides=parameter_overrides)
         self._configured = self._active = False
+        self._yields = False  # whether another executor signs
         self._diagnostics = DiagnosticsPublisher(self, "sentences")
         self.add_on_set_parameters_callback(self._check_parameters)
         self.add_post_set_parameters_callback(self._apply_parameters)
+
+    def start(self) -> bool:
+        """Configure and activate; where another executor signs, stay as it is and say so."""
+        return super().start() or self._yields
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002 - the API's
         """Open the table, start the process that plans, and listen."""
@@ -80,6 +86,12 @@ class ExecutorNode(SelfStartingNode):
             queue_settings = queue_settings_from(self._values())
         except (LutError, PlanError, DescriptionError) as error:
             self.get_logger().error(f"cannot be configured: [{error.code}] {error}")
+            return TransitionCallbackReturn.FAILURE
+        try:
+            domain = self.context.get_domain_id()
+            self._claim = claim(self.resolve_topic_name("joint_trajectory"), domain)
+        except PlanError as error:
+            self._yield(error)
             return TransitionCallbackReturn.FAILURE
         self._queue = ExecutionQueue(self._checker.limits, queue_settings)
         self._statistics = Statistics()
@@ -160,6 +172,18 @@ class ExecutorNode(SelfStartingNode):
             own_language=lambda: self._lut.language.code,
         )
 
+    def _yield(self, error: PlanError) -> None:
+        """Say that another executor signs, from now on."""
+        message = f"[{error.code}] {error}"
+        self.get_logger().error(f"cannot be configured: {message}")
+        if not self._yields:
+            self._yields = True
+            self.create_timer(DIAGNOSTICS_PERIOD, lambda: self._publish_yielding(message))
+
+    def _publish_yielding(self, message: str) -> None:
+        if not self._configured:
+            self._diagnostics.publish(Diagnosis(Level.ERROR, message, {}))
+
     def _let_go(self) -> None:
         if not self._configured:
             return
@@ -167,6 +191,7 @@ class ExecutorNode(SelfStartingNode):
         self._carry_out(self._queue.deactivate(self._now()))
         self._carry_out(self._queue.clear(self._now()))
         self._planning.close()
+        self._claim.close()
         self._intake.close()
         self._driver.close()
         self._offered.close()
