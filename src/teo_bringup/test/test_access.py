@@ -43,7 +43,7 @@ def who_may(folder: Path, act: str, topic: str) -> set[str]:
         ("publish", "rt/sign_tokens", {"translator", "console"}),
         ("publish", "rt/text", {"console", "operator"}),
         ("publish", "rt/joint_states", {"driver"}),
-        ("publish", "rq/stopRequest", {"console", "operator"}),
+        ("publish", "rq/stopRequest", {"console", "executor", "operator"}),
         ("publish", "rr/stopReply", {"driver"}),
         ("publish", "rq/teo_sim_driver/set_parametersRequest", set()),
         ("subscribe", "rq/teo_sim_driver/set_parametersRequest", {"driver"}),

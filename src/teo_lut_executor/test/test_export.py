@@ -224,7 +224,7 @@ def test_the_command_writes_both_formats(tmp_path: Path, table_directory: Path) 
 def test_the_command_refuses_with_a_code(tmp_path: Path, table_directory: Path) -> None:
     out = tmp_path / "motions.yaml"
     for arguments, code in (
-        (("NADA", "--out", out), "unknown_sign"),
+        (("SIN_SIGNO", "--out", out), "unknown_sign"),
         (("L", "--out", out, "--period", "9"), "bad_period"),
         (("L", "--out", table_directory / "L.json"), "exists"),
         (("L", "--out", table_directory / "L.json" / "below.yaml"), "not_written"),

@@ -193,7 +193,7 @@ def test_compare_refuses_what_is_no_pair_and_no_picture(tmp_path: Path) -> None:
     (tmp_path / "text.png").write_text("no picture")
     for pairs, code in (
         (("CASA",), "bad_arguments"),
-        (("NADIE", tmp_path / "text.png"), "unknown_sign"),
+        (("SIN_SIGNO", tmp_path / "text.png"), "unknown_sign"),
         (("CASA", tmp_path / "text.png"), "bad_picture"),
         (("CASA", tmp_path / "absent.png"), "bad_picture"),
     ):
@@ -209,7 +209,7 @@ def test_schema_prints_json() -> None:
 @pytest.mark.parametrize(
     ("arguments", "code"),
     [
-        (["show", "NADA"], "unknown_sign"),
+        (["show", "SIN_SIGNO"], "unknown_sign"),
         (["list", "--lut", "nowhere"], "no_directory"),
         (["review", "none.json"], "unreadable"),
         (["render", "A"], "bad_arguments"),

@@ -204,5 +204,5 @@ def test_recognise_says_what_differs_from_the_sign_that_was_meant(tmp_path: Path
     compared = json.loads(result.stdout)["compared"]
     assert compared["gloss"] == "CASA"
     assert not compared["hands"]  # one hand signs in the recording
-    unknown = CliRunner().invoke(app, ["recognise", str(bag), "--meant", "NADIE", "--json"])
+    unknown = CliRunner().invoke(app, ["recognise", str(bag), "--meant", "SIN_SIGNO", "--json"])
     assert json.loads(unknown.stdout)["code"] == "unknown_sign"
