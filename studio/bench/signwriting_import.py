@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from report import Figure, share, spread
+from teo_sign_authoring.notation.score_schema import Step
 from teo_sign_authoring.signwriting.compiler import compile_fsw
 from teo_sign_capture.signing_space import OTHER_HAND
 from teo_signs.look_up_table import Lut
@@ -130,7 +131,9 @@ def _word(name: str) -> str:
 
 
 def _begin(gloss: str, fsw: str) -> _Begin:
-    hand = compile_fsw(gloss, fsw, source=gloss).score.steps[0].right
+    step = compile_fsw(gloss, fsw, source=gloss).score.steps[0]
+    assert isinstance(step, Step), "the first step is no repetition"
+    hand = step.right
     assert hand is not None and hand.shape is not None and hand.place is not None
     return _Begin(hand.shape, hand.place.split()[0])
 
