@@ -231,7 +231,7 @@ def test_goals_are_sent_and_their_results_printed(graph: Any, ros2_here: Command
     def execute(handle: Any) -> Any:
         handle.publish_feedback(messages.ExecuteSentence.Feedback(gloss="HOLA"))
         handle.succeed()
-        return messages.ExecuteSentence.Result(message="hecho")
+        return messages.ExecuteSentence.Result(code=messages.ExecuteSentence.Result.SUCCESS, message="hecho")
 
     server = ActionServer(graph.node, messages.ExecuteSentence, "sign", execute)
     kind = "teo_sign_msgs/action/ExecuteSentence"
