@@ -55,10 +55,17 @@ NOT_RUN = {
     r"\b(BAG|GLOSS|CLIP|DIR|DIRECTORY)\b|\[|\.\.\. *$": "has a placeholder",
     r"reviews\.json|recordings/|HOLA_1|a\.png|(capture|-o) HOLA ": "wants the reader's own recordings",
 }
-# An entry as SignPuddle exports it; the sign is made up.
-DICTIONARY = """<?xml version="1.0" encoding="UTF-8"?>
+# An entry that the table names, as SignPuddle exports it; the sign is made up.
+SCORES = ROOT / "src" / "teo_sign_languages" / "languages" / "ssp" / "scores"
+ENTRY = next(
+    named[1]
+    for path in sorted(SCORES.glob("*.yaml"))
+    if path.stem.isalpha()
+    and (named := re.search(r'\(puddle 55\), entry "([^"]+)"', path.read_text("utf-8")))
+)
+DICTIONARY = f"""<?xml version="1.0" encoding="UTF-8"?>
 <spml root="http://www.signpuddle.net" type="sgn" puddle="55">
- <entry id="1"><term>M518x533S1870a489x515</term><term><![CDATA[abuelo 5]]></term></entry>
+ <entry id="1"><term>M518x533S1870a489x515</term><term><![CDATA[{ENTRY}]]></term></entry>
 </spml>
 """
 # The language that a page has its reader write.
