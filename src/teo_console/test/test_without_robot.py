@@ -91,15 +91,15 @@ def test_a_sign_is_found_by_its_word_and_handshape_and_a_text_says_what_to_recor
     api: Api, page: Page, pictures: Path
 ) -> None:
     page.goto(f"{api.url}/#dictionary")
-    page.fill("#search-word", "bíci")  # whatever the accents
-    page.select_option("#search-hand", "J")
-    expect(page.locator(".words button")).to_have_text(["BICICLETA"])
+    page.fill("#search-word", "cóche")  # whatever the accents
+    page.select_option("#search-hand", "A")
+    expect(page.locator(".words button")).to_have_text(["COCHE"])
     page.select_option("#search-hand", "B")
     expect(page.locator(".words button")).to_have_count(0)
-    page.select_option("#search-hand", "J")
+    page.select_option("#search-hand", "A")
     page.click(".words button")
     expect(page.locator("dl")).to_contain_text("DILSE")  # the page names the source
-    page.fill("#coverage-text", "Tengo una bicicleta y un tornillo.")
+    page.fill("#coverage-text", "Tengo un coche y un tornillo.")
     page.click("form button[type=submit]")
     expect(page.locator("form ol a")).to_have_text(["TORNILLO"], timeout=LONG)
     accessible(page)
