@@ -234,16 +234,19 @@ def test_keys_pause_and_step(graph: Any, start: Any, tmp_path: Path) -> None:
     player.wait_for_line("Press CURSOR_RIGHT for Play Next Message")
     player.wait_for_line("Playback until timestamp: -1")
 
+    pressed = 0
+
     def step() -> list[str]:
         # A message that is played before the subscription is matched is lost: then one more.
-        os.write(keys, b"\x1b[C")
+        nonlocal pressed
+        pressed += os.write(keys, b"\x1b[C") == 3
         deadline = time.monotonic() + 2.0
         while not came and time.monotonic() < deadline:
             time.sleep(0.01)
         return came
 
     graph.wait_until(step, "a message came")
-    assert len(came) == 1
+    assert len(came) <= pressed, "a press plays one message"
     os.write(keys, b" ")
     assert player.finish() == 0
     graph.wait_until(lambda: came[-1] == "4", "the others came")
