@@ -201,7 +201,7 @@ def readers_folder(folder: Path) -> Path:
     (folder / "my.yaml").write_text("driver:\n  ros__parameters:\n    publish_rate: 50.0\n")
     (folder / "sentences.txt").write_text("Hola.\nBuenos días.\n")
     film = ROOT / "src" / "teo_console" / "test" / "data" / "greeting.mp4"
-    shutil.copy(film, folder / "PUENTE.mp4")
+    shutil.copy(film, folder / "GRAPADORA.mp4")
     (folder / "clips").mkdir()
     shutil.copy(film, folder / "clips" / "HOLA.mp4")
     (folder / "sgn55.spml").write_text(DICTIONARY)
