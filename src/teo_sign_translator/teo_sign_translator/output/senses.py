@@ -68,9 +68,9 @@ def with_senses(
         signs: Glosses that have a sign; None if that is not known: then every gloss stays as it is.
         spelling: Of the language.
     """
-    said = " ".join(word.value or word.fold for clause in clauses for word in clause.words)
     if signs is None:
         return list(output_words)
+    said = " ".join(word.value or word.fold for clause in clauses for word in clause.words)
     fitting = [sense for sense in senses if sense.context.search(said)]
     result: list[OutputWord] = []
     rest = list(output_words)
