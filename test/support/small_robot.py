@@ -16,8 +16,9 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.time import Time
 from sensor_msgs.msg import JointState
-from teo_sign_msgs.msg import ExecutorStatus, SignSentence, SignToken
+from teo_sign_msgs.msg import DriverState, ExecutorStatus, SignSentence, SignToken
 from trajectory_msgs.msg import JointTrajectory
 
 from teo_lut_executor.node.executor_node import ExecutorNode
@@ -26,10 +27,16 @@ from teo_names import COMMANDED_JOINTS, HOME
 from teo_signs.tokens import parse_printed
 
 RATE = 100.0  # joint states a second [Hz]
+REPORT_STEPS = 10  # between what it says of itself while it moves, as the driver's
+LATCHED = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 class SmallRobot(Node):
-    """Goes from point to point in straight lines from a motion's stamp on; keeps what the executor said."""
+    """Goes from point to point in straight lines from a motion's stamp on; keeps what the executor said.
+
+    It says when a motion began, as the driver does: of one without a stamp nobody else knows, and a stop from
+    where the robot is not makes it jump.
+    """
 
     def __init__(self, context: Context) -> None:
         super().__init__("small_robot", context=context)
@@ -41,9 +48,9 @@ class SmallRobot(Node):
         self.late = 0.0
         self.stand_at_home()
         self._states = self.create_publisher(JointState, "joint_states", 10)
+        self._reports = self.create_publisher(DriverState, "driver_state", LATCHED)
         self.create_subscription(JointTrajectory, "joint_trajectory", self._on_trajectory, 10)
-        latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-        self.create_subscription(ExecutorStatus, "executor_status", self.statuses.append, latched)
+        self.create_subscription(ExecutorStatus, "executor_status", self.statuses.append, LATCHED)
         self.tokens = self.create_publisher(SignSentence, "sign_tokens", 1000)
         self.create_timer(1.0 / RATE, self._step)
 
@@ -52,6 +59,7 @@ class SmallRobot(Node):
         self.positions = np.array([HOME[name] for name in COMMANDED_JOINTS])
         self._times = np.zeros(1)  # [s], of the clock
         self._points = self.positions[None]
+        self._motions: list[tuple[float, float]] = []  # begin and end of what it follows [s], of the clock
 
     def _now(self) -> float:
         return float(self.get_clock().now().nanoseconds * 1e-9)
@@ -68,6 +76,9 @@ class SmallRobot(Node):
         times = [point.time_from_start.sec + point.time_from_start.nanosec * 1e-9 for point in message.points]
         self._times = np.concatenate([self._times[before], [begin], begin + np.array(times)])
         self._points = np.concatenate([self._points[before], here[None], points])
+        self._motions = [motion for motion in self._motions if motion[0] < begin]
+        self._motions.append((begin, begin + times[-1]))
+        self._report(now)
 
     def _step(self) -> None:
         now = self._now()
@@ -78,6 +89,17 @@ class SmallRobot(Node):
         message = JointState(name=list(COMMANDED_JOINTS), position=self.positions.tolist())
         message.velocity = ((self.positions - before) * RATE).tolist()
         self._states.publish(message)
+        if len(self.path) % REPORT_STEPS == 0:
+            self._report(now)
+
+    def _report(self, now: float) -> None:
+        message = DriverState(mode=DriverState.MODE_HOLDING, speed_scaling=1.0)
+        message.header.stamp = Time(nanoseconds=round(now * 1e9)).to_msg()
+        begin, end = next((motion for motion in reversed(self._motions) if motion[0] <= now), (0.0, 0.0))
+        if now < end:
+            message.mode = DriverState.MODE_MOVING
+            message.path_time, message.path_duration = now - begin, end - begin
+        self._reports.publish(message)
 
     def _at(self, now: float) -> np.ndarray:
         return np.array([np.interp(now, self._times, column) for column in self._points.T])
