@@ -60,6 +60,6 @@ docs: setup ## the pages of docs/ and of the API, in out/docs/
 	@$(ENV) NO_MKDOCS_2_WARNING=1 mkdocs build --strict --quiet
 
 bench: setup ## the figures of docs/figures.md; BENCH="NAME --option 1": those of one bench
-	@$(ENV) PYTHONPATH="$$PWD/scripts:$$PWD/test/support:$$PYTHONPATH" python studio/bench/run.py $(BENCH)
+	@$(ENV) PYTHONPATH="$$PWD/scripts:$$PWD/test/support/nodes:$$PWD/test/support/made:$$PYTHONPATH" python studio/bench/run.py $(BENCH)
 
 export TEXT OUT ROBOT LANGUAGE

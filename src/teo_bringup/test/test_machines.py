@@ -68,7 +68,7 @@ def test_an_intruder_moves_what_is_on_the_network_and_not_what_is_in_the_tunnel(
         f" ip neighbour add 10.77.0.3 lladdr {robot[0]['address']} dev lan0 && . ./env.sh"
     )
     intruder.type("export ROS_STATIC_PEERS='192.168.10.3;10.77.0.3'")
-    intruder.type(f"python test/support/intruder.py {ATTEMPT}", timeout=PATIENCE)
+    intruder.type(f"python test/support/nodes/intruder.py {ATTEMPT}", timeout=PATIENCE)
     learnt = json.loads(next(line for line in intruder.said if line.startswith("{")))
     assert "/plain/teo_sim_driver" in learnt["nodes"]
     assert learnt["turned"]["plain/"] == pytest.approx(TURN, abs=0.01)

@@ -21,7 +21,7 @@ OPTIONS = (
     "--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-first-run",
 )  # fmt: skip
 # A greeting of the synthetic signer: synthesize --script greeting --body man_average --rate 30.
-GREETING = Path(__file__).parents[2] / "src" / "teo_console" / "test" / "data" / "greeting.mp4"
+GREETING = Path(__file__).parents[3] / "src" / "teo_console" / "test" / "data" / "greeting.mp4"
 CAMERA_RATE = 15  # [Hz] of such a camera, from when it is switched on: half of the greeting's
 # The sign takes 3 s, after the countdown of 3 s and once in the 6 s that are recorded then, though a loaded
 # machine begins two seconds late [s].

@@ -22,7 +22,7 @@ from teo_console.server.app import make_app
 from teo_console.server.hub import Hub
 from teo_console.server.thread import ServerThread
 
-WEB = Path(__file__).parents[2] / "src" / "teo_console" / "web"
+WEB = Path(__file__).parents[3] / "src" / "teo_console" / "web"
 PATIENCE = 60.0  # [s] for an answer on a loaded machine
 
 

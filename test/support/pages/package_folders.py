@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 SHELVES = tuple(ROOT / name for name in ("src", "studio", "tools"))
 
 #: Folder of each Python package, by its name.

@@ -16,7 +16,7 @@ from hosts import Host, Network
 from typed_page import Shell, blocks_of
 from witness import Seen
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 PAGE = ROOT / "docs" / "machines.md"
 MACHINES = {"laptop": "192.168.10.1", "workstation": "192.168.10.2", "robot": "192.168.10.3"}
 INTRUDER = {"intruder": "192.168.10.66"}
