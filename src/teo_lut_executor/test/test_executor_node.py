@@ -8,7 +8,7 @@ import os
 import signal
 import time
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -18,34 +18,25 @@ import numpy as np
 import pytest
 import rclpy
 from action_msgs.msg import GoalStatus
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from made_signs import make_sign, small_table
+from made_signs import make_sign
 from rclpy.action import ActionClient
 from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
-from small_robot import Graph, SmallRobot
+from small_robot import Graph, running, save_table
 from std_srvs.srv import Trigger
 from teo_sign_msgs.action import ExecuteSentence
 from teo_sign_msgs.msg import ExecutorStatus, SignSentence, SignToken
 from teo_sign_msgs.srv import GetSign, ListQueue, ListSigns
 
 from teo_description.humanoid import load_humanoid
-from teo_lut_executor.execution.interface import Sentence
-from teo_lut_executor.execution.journal import Journal
 from teo_lut_executor.node.executor_node import ExecutorNode
 from teo_lut_executor.node.parameters import PARAMETERS
 from teo_names import COMMANDED_JOINTS, joint_limits
 from teo_signs.sign import Sign
 from teo_signs.sign_file import save_sign
-from teo_signs.tokens import parse_printed
 
 REST = load_humanoid().ready
-
-# Short signs near rest, so that a sentence takes about a second.
-QUICK = ("NOD", "TURN", "LOOK")
-NECK = ("AxialNeck", "FrontalNeck")
 
 
 class SharedGraph:
@@ -76,17 +67,6 @@ class SharedGraph:
         self._graph = None
 
 
-def save_table(directory: Path) -> None:
-    """The small table, and quick signs beside it."""
-    directory.mkdir(parents=True, exist_ok=True)
-    quick = (
-        make_sign(gloss, [[0.1 * n, 0.05], [0.1 * n - 0.05, 0.0]], [0.0, 0.2], joints=NECK)
-        for n, gloss in enumerate(QUICK)
-    )
-    for sign in (*small_table().values(), *quick):
-        save_sign(directory, sign)
-
-
 @pytest.fixture(scope="module")
 def shared(module_domain_id: int, tmp_path_factory: pytest.TempPathFactory) -> Iterator[SharedGraph]:
     shared = SharedGraph(module_domain_id, tmp_path_factory.mktemp("graphs"))
@@ -97,36 +77,6 @@ def shared(module_domain_id: int, tmp_path_factory: pytest.TempPathFactory) -> I
 @pytest.fixture
 def graph(shared: SharedGraph) -> Graph:
     return shared.graph()
-
-
-@pytest.fixture
-def own_graph(shared: SharedGraph, domain_id: int, tmp_path: Path) -> Iterator[Graph]:
-    """A graph for a test that ends its executor."""
-    shared.close()  # two nodes of one name in a process would share their log
-    save_table(tmp_path / "lut")
-    parameters = {"lut_directory": str(tmp_path / "lut"), "journal": str(tmp_path / "journal")}
-    with running(domain_id, *(Parameter(name, value=value) for name, value in parameters.items())) as graph:
-        yield graph
-
-
-@contextmanager
-def running(domain_id: int, *overrides: Parameter) -> Iterator[Graph]:
-    """An executor and the small robot; where a `lut_directory` is given, signs are saved there."""
-    context = Context()
-    rclpy.init(context=context, domain_id=domain_id)
-    overrides = (Parameter("final_hold", value=0.0), *overrides)
-    node = ExecutorNode(context=context, parameter_overrides=overrides)
-    robot = SmallRobot(context)
-    executor = SingleThreadedExecutor(context=context)
-    executor.add_node(node)
-    executor.add_node(robot)
-    assert node.start()
-    directory = node.get_parameter("lut_directory").value
-    yield Graph(node, robot, executor, Path(directory))
-    executor.shutdown()
-    robot.destroy_node()
-    node.destroy_node()
-    rclpy.shutdown(context=context)
 
 
 def test_sentences_are_signed_in_order_and_bad_ones_refused_when_they_come(graph: Graph) -> None:
@@ -353,132 +303,6 @@ def test_a_node_with_impossible_parameters_is_not_configured(
     assert not node.start()
     node.destroy_node()
     rclpy.shutdown(context=context)
-
-
-def test_a_second_executor_says_that_there_is_another_and_sends_nothing(own_graph: Graph) -> None:
-    told: list[DiagnosticArray] = []
-    node = ExecutorNode(context=own_graph.robot.context)
-    own_graph.executor.add_node(node)
-    own_graph.robot.create_subscription(DiagnosticArray, "diagnostics", told.append, 10)
-    assert node.start(), "it stays, to tell"
-    own_graph.spin_until(lambda: any("other_executor" in each.status[0].message for each in told))
-    own_graph.publish(own_graph.sentence("NOD"))
-    own_graph.rest(signed=1)
-    assert node.count_publishers("joint_trajectory") == 1
-    assert own_graph.robot.states().count(ExecutorStatus.STATE_SIGNING) == 1
-    node.destroy_node()
-
-
-@pytest.mark.slow
-def test_what_a_killed_executor_left_is_signed_or_named(
-    own_graph: Graph, domain_id: int, tmp_path: Path
-) -> None:
-    def left(text: str, seconds_ago: float, attempts: int) -> None:
-        sentence = Sentence(tokens=parse_printed(text), utterance_id=text)
-        journal.accepted(len(text), sentence, time.time() - seconds_ago, attempts=attempts)
-
-    folder = tmp_path / "other"
-    journal = Journal(folder / f"domain{domain_id}.executor.jsonl")
-    left("NOD", 5.0, 0)
-    left("TURN", 5.0, 2)
-    left("A-N-A", 1e4, 0)
-    journal.begin()
-    journal.close()
-    overrides = [
-        Parameter("lut_directory", value=str(own_graph.directory)),
-        Parameter("journal", value=str(folder)),
-    ]
-    second = ExecutorNode(context=own_graph.node.context, parameter_overrides=overrides)
-    own_graph.node.destroy_node()
-    own_graph.robot.statuses.clear()
-    own_graph.executor.add_node(second)
-    try:
-        assert second.start()
-        own_graph.rest(signed=1)
-        assert own_graph.refused() == [("interrupted", "TURN"), ("expired", "A-N-A")]
-        signed = [s.utterance_id for s in own_graph.robot.statuses if s.state == ExecutorStatus.STATE_SIGNING]
-        assert set(signed) == {"NOD"}
-    finally:
-        second.destroy_node()
-    assert Journal(folder / f"domain{domain_id}.executor.jsonl").left == ()
-
-
-@pytest.mark.slow
-def test_what_is_said_while_no_executor_is_there_is_signed_once_by_the_next_or_named(
-    own_graph: Graph, tmp_path: Path
-) -> None:
-    kept = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)  # as the translator's
-    own_graph.robot.tokens = own_graph.robot.create_publisher(SignSentence, "sign_tokens", kept)
-    own_graph.publish(own_graph.sentence("NOD"))
-    own_graph.publish(own_graph.sentence("Ω"))
-    own_graph.rest(signed=1)
-
-    def begin(journal_age: float) -> ExecutorNode:
-        own_graph.robot.statuses.clear()
-        overrides = [
-            Parameter("lut_directory", value=str(own_graph.directory)),
-            Parameter("journal", value=str(tmp_path / "journal")),
-            Parameter("journal_age", value=journal_age),
-        ]
-        node = ExecutorNode(context=own_graph.node.context, parameter_overrides=overrides)
-        own_graph.executor.add_node(node)
-        assert node.start()
-        return node
-
-    own_graph.node.destroy_node()
-    own_graph.robot.tokens.publish(own_graph.sentence("TURN"))
-    second = begin(60.0)
-    try:
-        own_graph.rest(signed=1)
-        told = {
-            (status.utterance_id, status.code) for status in own_graph.robot.statuses if status.utterance_id
-        }
-        assert told == {("text 3", "")}
-    finally:
-        second.destroy_node()
-    own_graph.robot.tokens.publish(own_graph.sentence("LOOK"))
-    third = begin(0.0)
-    try:
-        own_graph.spin_until(lambda: bool(own_graph.refused()))
-        own_graph.spin_until(lambda: own_graph.robot.states()[-1] == ExecutorStatus.STATE_IDLE)
-        assert own_graph.refused() == [("expired", "text 4")]
-        assert ExecutorStatus.STATE_SIGNING not in own_graph.robot.states()
-    finally:
-        third.destroy_node()
-
-
-@pytest.mark.slow
-def test_without_room_for_a_journal_all_that_is_said_is_signed_once_and_the_disk_told(
-    own_graph: Graph, domain_id: int, tmp_path: Path
-) -> None:
-    kept = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)  # as the translator's
-    own_graph.robot.tokens = own_graph.robot.create_publisher(SignSentence, "sign_tokens", kept)
-    told: list[DiagnosticStatus] = []
-    own_graph.robot.create_subscription(DiagnosticArray, "diagnostics", lambda m: told.extend(m.status), 10)
-    own_graph.node.destroy_node()
-    folder = tmp_path / "full"
-    folder.mkdir()
-    (folder / f"domain{domain_id}.executor.new").symlink_to("/dev/full")
-    own_graph.robot.tokens.publish(own_graph.sentence("NOD"))  # while no executor is there
-    overrides = [
-        Parameter("lut_directory", value=str(own_graph.directory)),
-        Parameter("journal", value=str(folder)),
-    ]
-    node = ExecutorNode(context=own_graph.node.context, parameter_overrides=overrides)
-    own_graph.robot.statuses.clear()
-    own_graph.executor.add_node(node)
-    try:
-        assert node.start()
-        own_graph.publish(own_graph.sentence("TURN"))
-        own_graph.publish(own_graph.sentence("Ω"))
-        own_graph.rest(signed=2)
-        assert own_graph.refused() == [("unknown_sign", "text 3")]
-        signed = [s.utterance_id for s in own_graph.robot.statuses if s.state == ExecutorStatus.STATE_SIGNING]
-        assert list(dict.fromkeys(signed)) == ["text 1", "text 2"]
-        own_graph.spin_until(lambda: any("No space left" in s.message for s in told))
-        assert told[-1].level == DiagnosticStatus.WARN
-    finally:
-        node.destroy_node()
 
 
 @pytest.mark.slow

@@ -5,12 +5,15 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import rclpy
+from made_signs import make_sign, small_table
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -24,10 +27,14 @@ from trajectory_msgs.msg import JointTrajectory
 from teo_lut_executor.node.executor_node import ExecutorNode
 from teo_lut_executor.node.parameters import PARAMETERS
 from teo_names import COMMANDED_JOINTS, HOME
+from teo_signs.sign_file import save_sign
 from teo_signs.tokens import parse_printed
 
 RATE = 100.0  # joint states a second [Hz]
 REPORT_STEPS = 10  # between what it says of itself while it moves, as the driver's
+# Short signs near rest, so that a sentence takes about a second.
+QUICK = ("NOD", "TURN", "LOOK")
+NECK = ("AxialNeck", "FrontalNeck")
 LATCHED = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -171,3 +178,34 @@ class Graph:
     def publish(self, message: SignSentence) -> None:
         self.spin_until(lambda: self.robot.tokens.get_subscription_count() > 0)
         self.robot.tokens.publish(message)
+
+
+def save_table(directory: Path) -> None:
+    """The small table, and quick signs beside it."""
+    directory.mkdir(parents=True, exist_ok=True)
+    quick = (
+        make_sign(gloss, [[0.1 * n, 0.05], [0.1 * n - 0.05, 0.0]], [0.0, 0.2], joints=NECK)
+        for n, gloss in enumerate(QUICK)
+    )
+    for sign in (*small_table().values(), *quick):
+        save_sign(directory, sign)
+
+
+@contextmanager
+def running(domain_id: int, *overrides: Parameter) -> Iterator[Graph]:
+    """An executor and the small robot; where a `lut_directory` is given, signs are saved there."""
+    context = Context()
+    rclpy.init(context=context, domain_id=domain_id)
+    overrides = (Parameter("final_hold", value=0.0), *overrides)
+    node = ExecutorNode(context=context, parameter_overrides=overrides)
+    robot = SmallRobot(context)
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    executor.add_node(robot)
+    assert node.start()
+    directory = node.get_parameter("lut_directory").value
+    yield Graph(node, robot, executor, Path(directory))
+    executor.shutdown()
+    robot.destroy_node()
+    node.destroy_node()
+    rclpy.shutdown(context=context)
