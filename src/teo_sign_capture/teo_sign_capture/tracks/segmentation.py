@@ -5,13 +5,15 @@
 A sign is prepared by a way up and followed by a way down (Kita, van Gijn and van der Hulst 1998); an entry
 holds the stroke between both, as the planner makes its own ways. The way up ends where the hands first slow
 down clearly, or no longer go away from where they rest: a hand swung into its sign slows down nowhere.
-The way down begins where they last do, so that holds, shakes and repetitions stay whole.
+The way down begins where they last do, so that holds, shakes and repetitions stay whole. In a film how far
+forward a hand is, is guessed: one that comes straight up or falls straight down, as seen from the front, is
+on its way, however it seems to swing forth and back meanwhile.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -249,7 +251,7 @@ def _span(
     ]
     times, speed = track.times, _speed(track, sides)[inside]
     distance = np.nan_to_num(away[lead][inside])
-    aside = _aside(times[inside], reach * away[lead][inside], _speed(track, [lead])[inside])
+    aside = _aside(track, lead, reach)[inside] & _aside(_from_the_front(track), lead, reach)[inside]
     start = _arrival(speed, aside, distance)
     end = len(speed) - 1 - _arrival(speed[::-1], aside[::-1], distance[::-1])
     # A recording that was cut there, while the hands were away, begins or ends with the stroke.
@@ -295,21 +297,21 @@ def _speed(track: SkeletonTrack, sides: list[str]) -> Array:
     return smooth
 
 
-def _aside(times: Array, distance: Array, speed: Array) -> Flags:
-    """Whether a hand that is far from rest goes neither straight away from it nor straight back. Shape (n,).
+def _from_the_front(track: SkeletonTrack) -> SkeletonTrack:
+    """The person without depth."""
+    return replace(track, body=replace(track.body, positions=track.body.positions * (0.0, 1.0, 1.0)))
 
-    Args:
-        times: [s]. Shape (n,).
-        distance: From where the hand rests [m]; NaN where it is not known. Shape (n,).
-        speed: Of the hand [m/s]. Shape (n,).
-    """
+
+def _aside(track: SkeletonTrack, side: str, reach: float) -> Flags:
+    """Whether a hand that is far from rest goes neither straight away from it nor straight back. Shape (n,)."""
+    times, distance = track.times, reach * _distance_from_rest(track, side, reach)
     if len(times) < 2:
         return np.zeros(len(times), dtype=bool)
     width = _SPEED_WIDTH / float(np.median(np.diff(times)))
     straight = np.abs(np.gradient(gaussian_filter1d(distance, width, mode="nearest"), times))
     with np.errstate(invalid="ignore"):
-        aside: Flags = (straight < _STRAIGHT * speed) & (distance > _FAR * np.nanmax(distance))
-    return aside
+        aside: Flags = straight < _STRAIGHT * _speed(track, [side])
+        return aside & (distance > _FAR * np.nanmax(distance, initial=0.0))
 
 
 def _arrival(speed: Array, aside: Flags, distance: Array) -> int:

@@ -92,6 +92,16 @@ def test_a_sign_that_is_swung_into_and_out_of_is_kept_whole() -> None:
     assert span.end == pytest.approx(1.4, abs=2.0 * FRAMES)
 
 
+def test_a_hand_whose_depth_is_guessed_wrong_on_its_way_up_and_down_signs_not_yet() -> None:
+    """In films a hand that passes the belly seems up to 20 cm too far forward."""
+    times = np.arange(0.0, 3.0, 1.0 / RATE)
+    wrist = path(times, REST, [(0.5, 1.1, CHIN), (1.2, 1.6, (0.25, -0.20, 0.0)), (1.7, 2.3, REST)])
+    wrist[:, 0] += 0.2 * np.exp(-np.square((wrist[:, 2] + 0.30) / 0.10))
+    (span,) = spans_of(make_track(times, wrist, noise=0.005))
+    assert span.start == pytest.approx(1.1, abs=2.0 * FRAMES)
+    assert span.end == pytest.approx(1.7, abs=2.0 * FRAMES)
+
+
 def test_a_shake_that_never_stops_is_kept_whole() -> None:
     times = np.arange(0.0, 2.8, 1.0 / RATE)
     held = path(times, REST, [(0.5, 1.0, CHIN), (1.8, 2.3, REST)])
