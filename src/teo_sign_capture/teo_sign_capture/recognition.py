@@ -108,9 +108,8 @@ def recording_appearance(
     Raises:
         LutError: "empty_track", "no_motion", "several_signs", "too_long", "no_arm" or "no_hand".
     """
-    first, last = 0.0 if start is None else start, float(track.times[-1]) if end is None else end
-    smooth = smooth_track(track.between(first, last)).track
-    span = the_sign(smooth, offset=first, cut_start=start is not None, cut_end=end is not None)
+    smooth = smooth_track(track).track
+    span = the_sign(smooth, start=start, end=end)
     stroke = smooth.between(span.start, span.end)
     signer = signer_motion(stroke, handedness=handedness or span.handedness, person=measure_person(track))
     return _demonstration_appearance(robot, signer)

@@ -14,12 +14,13 @@ from teo_sign_capture.retarget.robot_motion import RobotMotion, retarget_motion
 from teo_sign_capture.tracks.segmentation import SignSpan, the_sign
 from teo_sign_capture.tracks.signer_motion import measure_person, signer_motion
 from teo_sign_capture.tracks.skeleton_track import WRIST, SkeletonTrack
-from teo_sign_capture.tracks.smoothing import Gap, Smoothed, runs, seen, smooth_track
+from teo_sign_capture.tracks.smoothing import Gap, runs, seen, smooth_track
 from teo_signs.errors import LutError
 from teo_signs.sign_schema import Handedness
 
-# [s] Length of the recording before and after a cut from which keypoints lost at its edges are filled in.
-_CONTEXT = 1.0
+# [s] Length of the recording before and after a cut in which it is seen where the hands rest, and from which
+# keypoints lost at its edges are filled in: a sign's way up takes less than a second.
+_CONTEXT = 3.0
 # A hand that is lost for more than this share of the stroke, while the other is not, and that moves by less
 # than `_STILL` [m], is passive and left out.
 _MOSTLY, _STILL = 0.5, 0.08
@@ -85,9 +86,13 @@ def capture_take(
             what `signer_motion` and `retarget_motion` raise.
     """
     cut = cut or Cut()
-    offset, raw, smoothed = _cut(track, cut)
+    offset, raw = _around(track, cut)
+    smoothed = smooth_track(raw)
     span = the_sign(
-        smoothed.track, offset=offset, cut_start=cut.start is not None, cut_end=cut.end is not None
+        smoothed.track,
+        offset=offset,
+        start=None if cut.start is None else cut.start - offset,
+        end=None if cut.end is None else cut.end - offset,
     )
     handedness = handedness or _without_unseen(smoothed.track, span)
     span = _while_seen(smoothed.track, replace(span, handedness=handedness))
@@ -112,8 +117,8 @@ def capture_take(
     )
 
 
-def _cut(track: SkeletonTrack, cut: Cut) -> tuple[float, SkeletonTrack, Smoothed]:
-    """When the part begins [s], the part as recorded, and smoothed; gaps in the time of the part."""
+def _around(track: SkeletonTrack, cut: Cut) -> tuple[float, SkeletonTrack]:
+    """A part of a recording and what is around it: when it begins [s], and the track as recorded."""
     last = float(track.times[-1])
     start, end = 0.0 if cut.start is None else cut.start, last if cut.end is None else cut.end
     if not 0.0 <= start < end <= last + _ROUNDING:
@@ -123,21 +128,12 @@ def _cut(track: SkeletonTrack, cut: Cut) -> tuple[float, SkeletonTrack, Smoothed
             f"and {end:g} s",
         )
     times = track.times
-    first, stop = np.searchsorted(times, (start - _ROUNDING, end + _ROUNDING)).tolist()
-    if stop - first < 2:
+    if np.count_nonzero((times >= start - _ROUNDING) & (times <= end + _ROUNDING)) < 2:
         raise LutError(
             "outside_recording", f"{track.source}: expected frames from {start:g} to {end:g} s, got none"
         )
-    offset = float(times[first])
-    before = float(times[np.searchsorted(times, start - _CONTEXT)])
-    smoothed = smooth_track(track.between(before, end + _CONTEXT))
-    gaps = tuple(
-        replace(gap, start=gap.start + before - offset, end=gap.end + before - offset)
-        for gap in smoothed.gaps
-    )
-    inside = smoothed.track.between(offset - before - _ROUNDING, times[stop - 1] - before + _ROUNDING)
-    raw = track.between(offset - _ROUNDING, times[stop - 1] + _ROUNDING)
-    return offset, raw, Smoothed(track=inside, gaps=gaps)
+    first = float(times[np.searchsorted(times, start - _CONTEXT)])
+    return first, track.between(first, end + _CONTEXT)
 
 
 def _without_unseen(track: SkeletonTrack, span: SignSpan) -> Handedness:

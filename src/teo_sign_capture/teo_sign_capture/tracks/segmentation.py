@@ -82,6 +82,8 @@ _SWUNG = 0.85
 _LEAST_STROKE = 0.3
 # [s] The longest signs of the dictionary (compounds) take 3 s; what is longer is several.
 _LONGEST_SIGN = 4.0
+# [s] Rounding of sums of times and of stamps; frames are a hundred times as far apart.
+_ROUNDING = 1e-4
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -95,7 +97,7 @@ class SignSpan:
         returns: When the hands are at rest again [s].
         handedness: The hands that take part.
         pauses: When the hands slow down within the stroke [s]: where several signs may meet.
-        cut_start: The recording begins while the hands are away from rest.
+        cut_start: The recording, or the part that was chosen, begins while the hands are away from rest.
         cut_end: Likewise its end.
     """
 
@@ -115,22 +117,38 @@ class SignSpan:
 
 
 def find_signs(
-    track: SkeletonTrack, *, cut_start: bool = False, cut_end: bool = False
+    track: SkeletonTrack, *, start: float | None = None, end: float | None = None
 ) -> tuple[SignSpan, ...]:
     """Every sign of a smoothed track, in order.
 
+    Where the hands rest, and whether they ever move, is seen in the whole track, also if only a part of it is
+    looked at.
+
     Args:
         track: The person.
-        cut_start: Somebody chose where the track begins: hands that are away from rest there sign already.
-        cut_end: Likewise its end.
+        start: Where the part begins that somebody chose [s]: hands that are away from rest there sign
+            already. The track's beginning without.
+        end: Likewise its end.
+
+    Raises:
+        LutError: "empty_track" if no frame is in the part.
     """
+    times = track.times
+    begin = 0 if start is None else int(np.searchsorted(times, start - _ROUNDING))
+    stop = len(times) if end is None else int(np.searchsorted(times, end + _ROUNDING))
+    if begin >= stop:
+        raise LutError(
+            "empty_track",
+            f"{track.source}: expected frames between {start} and {end} s, got none: it lasts from 0 to "
+            f"{times[-1]:.2f} s",
+        )
     reach = _reach(track)
     away = {side: _distance_from_rest(track, side, reach) for side in _ARMS}
     out = np.logical_or(*(_has_left(distance) for distance in away.values()))
-    times = track.times
+    out[:begin] = out[stop:] = False
     # A short rest between two beats joins what is around it.
     for first, last in runs(~out):
-        if first > 0 and last < len(out) - 1 and times[last] - times[first] < _LEAST_REST:
+        if first > begin and last < stop - 1 and times[last] - times[first] < _LEAST_REST:
             out[first : last + 1] = True
     ways = {
         (first, last): max(float(np.nanmax(one[first : last + 1], initial=0.0)) for one in away.values())
@@ -138,33 +156,35 @@ def find_signs(
         if times[last] - times[first] >= _LEAST_SIGN
     }
     least = max(_LEAST_WAY, _FIDGET * max(ways.values(), default=0.0))
+    cut = start is not None, end is not None
     return tuple(
-        _span(track, away, reach, first, last, cut=(cut_start, cut_end))
+        _span(track, away, reach, first, last, part=(begin, stop - 1), cut=cut)
         for (first, last), way in ways.items()
         if way >= least
     )
 
 
 def the_sign(
-    track: SkeletonTrack, *, offset: float = 0.0, cut_start: bool = False, cut_end: bool = False
+    track: SkeletonTrack, *, offset: float = 0.0, start: float | None = None, end: float | None = None
 ) -> SignSpan:
     """The one sign of a smoothed track.
 
     Args:
         track: The person.
         offset: What is added to times in messages, where the track is a part of a recording [s].
-        cut_start: See `find_signs`.
-        cut_end: Likewise.
+        start: See `find_signs`.
+        end: Likewise.
 
     Raises:
-        LutError: "no_motion", "several_signs" or "too_long", naming where things are.
+        LutError: "empty_track", "no_motion", "several_signs" or "too_long", naming where things are.
     """
-    spans = find_signs(track, cut_start=cut_start, cut_end=cut_end)
+    spans = find_signs(track, start=start, end=end)
     if not spans:
+        length = (track.times[-1] if end is None else end) - (0.0 if start is None else start)
         raise LutError(
             "no_motion",
             f"{track.source}: expected hands that leave rest and return, got none that goes "
-            f"{100.0 * _LEAST_WAY * _reach(track):.0f} cm from it within {track.times[-1]:.1f} s",
+            f"{100.0 * _LEAST_WAY * _reach(track):.0f} cm from it within {length:.1f} s",
         )
     if len(spans) > 1:
         where = "; ".join(
@@ -237,6 +257,7 @@ def _span(
     first: int,
     last: int,
     *,
+    part: tuple[int, int],
     cut: tuple[bool, bool],
 ) -> SignSpan:
     inside = slice(first, last + 1)
@@ -255,22 +276,22 @@ def _span(
     start = _arrival(speed, aside, distance)
     end = len(speed) - 1 - _arrival(speed[::-1], aside[::-1], distance[::-1])
     # A recording that was cut there, while the hands were away, begins or ends with the stroke.
-    if first == 0 and distance[0] > (_CUT if cut[0] else _WITHIN * distance.max()):
+    if first == part[0] and distance[0] > (_CUT if cut[0] else _WITHIN * distance.max()):
         start = 0
-    if last == len(times) - 1 and distance[-1] > (_CUT if cut[1] else _WITHIN * distance.max()):
+    if last == part[1] and distance[-1] > (_CUT if cut[1] else _WITHIN * distance.max()):
         end = len(distance) - 1
     if start > end:  # straight there and back without a stop
         start = end = int(distance.argmax())
     start, end = _at_least(times[inside], start, end)
     return SignSpan(
-        leaves=float(times[max(first - 1, 0)]),
+        leaves=float(times[max(first - 1, part[0])]),
         start=float(times[first + start]),
         end=float(times[first + end]),
-        returns=float(times[min(last + 1, len(times) - 1)]),
+        returns=float(times[min(last + 1, part[1])]),
         handedness="both" if len(sides) == 2 else "right" if sides[0] == "right" else "left",
         pauses=tuple(float(times[first + index]) for index in _dips(speed) if start < index < end),
-        cut_start=first == 0,
-        cut_end=last == len(times) - 1,
+        cut_start=first == part[0],
+        cut_end=last == part[1],
     )
 
 
@@ -303,7 +324,7 @@ def _from_the_front(track: SkeletonTrack) -> SkeletonTrack:
 
 
 def _aside(track: SkeletonTrack, side: str, reach: float) -> Flags:
-    """Whether a hand that is far from rest goes neither straight away from it nor straight back. Shape (n,)."""
+    """Whether a hand far from rest goes neither straight away from it nor straight back. Shape (n,)."""
     times, distance = track.times, reach * _distance_from_rest(track, side, reach)
     if len(times) < 2:
         return np.zeros(len(times), dtype=bool)

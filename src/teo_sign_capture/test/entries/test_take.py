@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from made_bags import OUT, REST, SIGN, signing
-from made_tracks import lose
+from made_tracks import HANGING, Move, lose, make_track, path
 
 from teo_description.robot import Robot
 from teo_names import joint_limits
@@ -62,6 +62,22 @@ def test_a_cut_outside_the_recording_is_refused(robot: Robot, cut: Cut) -> None:
     with pytest.raises(LutError) as error:
         capture_take(robot, signing(), cut=cut)
     assert error.value.code == "outside_recording"
+
+
+def test_a_hand_that_is_held_up_signs_in_a_part_of_the_recording_too(robot: Robot) -> None:
+    """Nothing of the part tells a hand that is held up from one at rest; what is around it does."""
+    times = np.arange(0.0, 3.2, 1.0 / 30.0)
+    held = path(times, HANGING["left"], [(0.5, 1.1, (0.25, 0.30, 0.05)), (1.8, 2.4, HANGING["left"])])
+    track = make_track(times, path(times, REST, SIGN), held, noise=0.004)
+    assert capture_take(robot, track).span.handedness == "both"
+    assert capture_take(robot, track, cut=Cut(start=1.1, end=1.8)).span.handedness == "both"
+
+
+def test_the_end_that_was_chosen_is_kept_where_a_hand_is_held_low(robot: Robot) -> None:
+    low = (0.30, -0.20, -0.36)
+    moves: list[Move] = [(0.5, 1.0, OUT), (1.1, 1.4, low), (1.9, 2.3, REST)]
+    span = capture_take(robot, signing(moves=moves), cut=Cut(start=1.0, end=1.9)).span
+    assert (span.start, span.end) == (pytest.approx(1.0, abs=FRAMES), pytest.approx(1.9, abs=FRAMES))
 
 
 def test_a_hand_that_is_lost_shortly_is_filled_in_and_said(robot: Robot) -> None:
