@@ -96,6 +96,7 @@ class SignSpan:
         end: When the stroke ends [s].
         returns: When the hands are at rest again [s].
         handedness: The hands that take part.
+        held: Hands that are held up for most of the sign and do nothing: they take no part.
         pauses: When the hands slow down within the stroke [s]: where several signs may meet.
         cut_start: The recording, or the part that was chosen, begins while the hands are away from rest.
         cut_end: Likewise its end.
@@ -106,6 +107,7 @@ class SignSpan:
     end: float
     returns: float
     handedness: Handedness
+    held: tuple[str, ...]
     pauses: tuple[float, ...]
     cut_start: bool
     cut_end: bool
@@ -265,11 +267,8 @@ def _span(
     # The hand that gets farther leads; the other takes part if it is away for half of the time and does
     # something there.
     lead = max(far, key=lambda side: far[side])
-    sides = [
-        side
-        for side, distance in away.items()
-        if side == lead or (_has_left(distance)[inside].mean() > 0.5 and _is_used(track, side, inside, reach))
-    ]
+    raised = [side for side, one in away.items() if side == lead or _has_left(one)[inside].mean() > 0.5]
+    sides = [side for side in raised if side == lead or _is_used(track, side, inside, reach)]
     times, speed = track.times, _speed(track, sides)[inside]
     distance = np.nan_to_num(away[lead][inside])
     aside = _aside(track, lead, reach)[inside] & _aside(_from_the_front(track), lead, reach)[inside]
@@ -289,6 +288,7 @@ def _span(
         end=float(times[first + end]),
         returns=float(times[min(last + 1, part[1])]),
         handedness="both" if len(sides) == 2 else "right" if sides[0] == "right" else "left",
+        held=tuple(side for side in raised if side not in sides),
         pauses=tuple(float(times[first + index]) for index in _dips(speed) if start < index < end),
         cut_start=first == part[0],
         cut_end=last == part[1],

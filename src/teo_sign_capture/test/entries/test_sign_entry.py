@@ -92,6 +92,12 @@ def test_the_provenance_says_where_it_comes_from(captured: Captured) -> None:
     assert "A test." in provenance.notes
 
 
+def test_a_hand_that_is_held_up_and_left_out_is_named(robot: Robot, takes: list[SignTake]) -> None:
+    held = replace(takes[0], span=replace(takes[0].span, held=("left",)))
+    notes = make_sign(robot, "SIGNO", [held], ORIGIN).sign.provenance.notes
+    assert "left hand is held up, does nothing and is left out: --hands both" in notes
+
+
 def test_takes_are_averaged_with_the_reason_in_the_notes(robot: Robot, takes: list[SignTake]) -> None:
     sign = make_sign(robot, "SIGNO", takes, ORIGIN).sign
     assert sign.quality["takes_count"] == 3.0

@@ -115,7 +115,7 @@ def test_a_hand_that_is_held_and_does_nothing_takes_no_part() -> None:
     times = np.arange(0.0, 3.0, 1.0 / RATE)
     belly = np.tile((0.15, 0.25, -0.25), (len(times), 1))
     (span,) = spans_of(make_track(times, path(times, REST, ONE), belly, noise=0.008))
-    assert span.handedness == "right"
+    assert (span.handedness, span.held) == ("right", ("left",))
 
 
 def test_a_scratch_beside_the_sign_is_no_second_sign() -> None:
