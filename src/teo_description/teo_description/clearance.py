@@ -112,7 +112,7 @@ class ClearanceChecker:
         self._links = links
         self._torso = frozenset(humanoid.file.collision.torso)
         self._hands = frozenset(link for side in SIDES for link in _arm_links(humanoid, side).hand)
-        self._pairs = np.array(pairs)
+        self._firsts, self._seconds = np.array(pairs).T.copy()
         # Where shapes are, in the memory that Pinocchio writes to: asking for all anew takes longer than
         # forward kinematics and all distances together. Boxes and rods have their origin at their centre.
         self._poses = self._geometry_data.oMg.tolist()
@@ -120,7 +120,7 @@ class ClearanceChecker:
         for item in objects:
             item.geometry.computeLocalAABB()
         radii = np.array([item.geometry.aabb_radius for item in objects])
-        self._reach = radii[self._pairs[:, 0]] + radii[self._pairs[:, 1]]
+        self._reach = radii[self._firsts] + radii[self._seconds]
 
     @property
     def shaped_links(self) -> tuple[str, ...]:
@@ -133,34 +133,37 @@ class ClearanceChecker:
         closest = int(bounds.argmin())
         best = self._distance(closest)
         nearer = np.flatnonzero(bounds < best)
-        for index in nearer[np.argsort(bounds[nearer])]:
-            if bounds[index] >= best:
+        of_nearer = bounds[nearer]
+        order = of_nearer.argsort()
+        for index, bound in zip(nearer[order].tolist(), of_nearer[order].tolist(), strict=True):
+            if bound >= best:
                 break
-            distance = self._distance(int(index))
+            distance = self._distance(index)
             if distance < best:
-                best, closest = distance, int(index)
-        first, second = self._pairs[closest]
-        return Clearance(best, self._links[first], self._links[second])
+                best, closest = distance, index
+        return Clearance(best, *self._links_of(closest))
 
     def contacts(self, q: NDArray[np.float64], within: float) -> list[Contact]:
         """All pairs of shapes nearer to each other than a distance [m] at a configuration, shape (nq,)."""
         found = []
-        for index in np.flatnonzero(self._bounds(q) < within):
-            result = pin.computeDistance(self._geometry, self._geometry_data, int(index))
+        for index in np.flatnonzero(self._bounds(q) < within).tolist():
+            result = pin.computeDistance(self._geometry, self._geometry_data, index)
             if result.min_distance < within:
-                first, second = self._pairs[index]
+                links = self._links_of(index)
                 found.append(
                     Contact(
                         float(result.min_distance),
-                        self._links[first],
-                        self._links[second],
+                        *links,
                         np.array(result.getNearestPoint1()),
                         np.array(result.getNearestPoint2()),
                         np.array(result.normal),
-                        self._may_be_meant({self._links[first], self._links[second]}),
+                        self._may_be_meant(set(links)),
                     )
                 )
         return found
+
+    def _links_of(self, pair: int) -> tuple[str, str]:
+        return self._links[self._firsts[pair]], self._links[self._seconds[pair]]
 
     def _may_be_meant(self, links: set[str]) -> bool:
         return links.isdisjoint(self._torso) or not links.isdisjoint(self._hands)
@@ -172,7 +175,7 @@ class ClearanceChecker:
     def _bounds(self, q: NDArray[np.float64]) -> NDArray[np.float64]:
         """What the distance of each pair is not below, by their bounding spheres [m]."""
         pin.updateGeometryPlacements(self._model, self._data, self._geometry, self._geometry_data, q)
-        centres = np.array(self._centres)
-        apart = centres.take(self._pairs[:, 0], axis=0) - centres.take(self._pairs[:, 1], axis=0)
-        bounds: NDArray[np.float64] = np.sqrt(np.einsum("ij,ij->i", apart, apart)) - self._reach
+        centres = np.concatenate(self._centres).reshape(-1, 3).T.copy()
+        apart = centres.take(self._firsts, axis=1) - centres.take(self._seconds, axis=1)
+        bounds: NDArray[np.float64] = np.sqrt(np.einsum("ij,ij->j", apart, apart)) - self._reach
         return bounds

@@ -44,6 +44,11 @@ class Robot:
         self._column = {name: index for index, name in enumerate(self._names)}
         self._expansion, self._offset = self._following()
         self._home = np.array([humanoid.home[name] for name in self._names])
+        commanded = [self._column[name] for name in humanoid.commanded_joints]
+        self._commanded = self._expansion[:, commanded]
+        others = self._home.copy()
+        others[commanded] = 0.0
+        self._standing = self._expansion @ others + self._offset
 
     @classmethod
     def load(cls, name: str = DEFAULT_ROBOT) -> Robot:
@@ -93,6 +98,18 @@ class Robot:
         expanded: Matrix = self._expansion @ values + self._offset
         return expanded
 
+    def configurations(self, positions: Matrix) -> Matrix:
+        """Configurations of the commanded joints' positions, the other joints at home.
+
+        Args:
+            positions: In the order of `Humanoid.commanded_joints` [rad], not checked. Shape (..., joints).
+
+        Returns:
+            Shape (..., nq).
+        """
+        expanded: Matrix = positions @ self._commanded.T + self._standing
+        return expanded
+
     def torques(self, positions: Matrix, velocities: Matrix, accelerations: Matrix) -> Matrix:
         """Torques that move the commanded joints so, against gravity, the legs standing at home [N m].
 
@@ -104,17 +121,11 @@ class Robot:
             velocities: [rad/s].
             accelerations: [rad/s^2].
         """
-        columns = [self._column[name] for name in self.humanoid.commanded_joints]
-        values = np.tile(self._home, (len(positions), 1))
-        values[:, columns] = positions
-        expansion = self._expansion[:, columns]
+        turning = self._commanded
         rows = zip(
-            values @ self._expansion.T + self._offset,
-            velocities @ expansion.T,
-            accelerations @ expansion.T,
-            strict=True,
+            self.configurations(positions), velocities @ turning.T, accelerations @ turning.T, strict=True
         )
-        needed: Matrix = np.array([pin.rnea(self.model, self.data, *row) for row in rows]) @ expansion
+        needed: Matrix = np.array([pin.rnea(self.model, self.data, *row) for row in rows]) @ turning
         return needed
 
     def placement(self, q: Matrix, frame: str) -> Matrix:

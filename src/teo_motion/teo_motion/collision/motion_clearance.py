@@ -77,7 +77,7 @@ class MotionClearance:
             positions: Positions of the commanded joints [rad]. Shape (joints,).
             distance: Distance to compare with [m].
         """
-        return bool(self._robot.contacts(self._configuration(positions), distance))
+        return bool(self._robot.contacts(self._robot.configurations(positions), distance))
 
     @property
     def head_links(self) -> tuple[str, ...]:
@@ -86,12 +86,8 @@ class MotionClearance:
 
     def _look(self, motion: _Motion, path: float, clearance: Callable[[Array], Clearance]) -> _Look:
         time, positions = motion.at(path)
-        distance, first, second = clearance(self._configuration(positions))
-        return path, NearestApproach(distance=float(distance), time=time, first=first, second=second)
-
-    def _configuration(self, positions: NDArray[np.float64]) -> NDArray[np.float64]:
-        joints = self._robot.humanoid.commanded_joints
-        return self._robot.configuration(dict(zip(joints, positions.tolist(), strict=True)))
+        distance, first, second = clearance(self._robot.configurations(positions))
+        return path, NearestApproach(distance=distance, time=time, first=first, second=second)
 
 
 # How far along its path a motion was looked at [m], and what was found there.

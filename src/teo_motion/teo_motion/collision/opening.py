@@ -8,7 +8,7 @@ plan of the sentence takes over while they do.
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from teo_motion.collision.motion_clearance import MotionClearance
 from teo_motion.sentence.composition import Composition
 from teo_motion.sentence.plan import Plan, Samples
 from teo_motion.trajectory.driver_points import point_times, spline_points
-from teo_motion.trajectory.joint_motion import JointMotion, Pieces, take
+from teo_motion.trajectory.joint_motion import JointMotion, Pieces, begins, in_a_row, standing, take
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import Bounds, RuckigSegment, RuckigSolver, State
 from teo_motion.trajectory.stopping import stop
@@ -78,11 +78,13 @@ def opening(
     # The robot stands still for a period more, as before any motion: see `driver_points`.
     taken_over = period + lasting
     times = point_times(taken_over + halt.duration, period)
-    motion = _in_a_row(
-        _standing(start.position, period),
-        _first_part(way.pieces, lasting),
-        halt.pieces,
-        _standing(end.position, float(times[-1]) - taken_over - halt.duration),
+    motion = in_a_row(
+        (
+            _standing(start.position, period),
+            _first_part(way.pieces, lasting),
+            halt.pieces,
+            _standing(end.position, float(times[-1]) - taken_over - halt.duration),
+        )
     )
     looks = np.arange(0.0, times[-1] + _LOOK, _LOOK)
     if not bounds.allow(motion.extremes()) or _touches(
@@ -110,30 +112,12 @@ def _eased(
 
 def _standing(position: Array, duration: float) -> Pieces:
     """All joints stand still for a time [s]. Shape (m, 1)."""
-    zero = np.zeros((len(position), 1))
-    return Pieces(
-        lengths=np.full_like(zero, duration),
-        positions=position[:, None],
-        velocities=zero,
-        accelerations=zero,
-        jerks=zero,
-    )
+    return replace(standing(position), lengths=np.full((len(position), 1), duration))
 
 
 def _first_part(pieces: Pieces, duration: float) -> Pieces:
     """What of the pieces lies within a first time [s]; the others have no length any more."""
-    begins = np.cumsum(pieces.lengths, axis=1) - pieces.lengths
-    return replace(pieces, lengths=np.clip(duration - begins, 0.0, pieces.lengths))
-
-
-def _in_a_row(*parts: Pieces) -> Pieces:
-    """Pieces that follow one another. Shape (m, k)."""
-    return Pieces(
-        **{
-            field.name: np.concatenate([getattr(part, field.name) for part in parts], axis=1)
-            for field in fields(Pieces)
-        }
-    )
+    return replace(pieces, lengths=np.clip(duration - begins(0.0, pieces), 0.0, pieces.lengths))
 
 
 def _after(pieces: Pieces, times: Array) -> tuple[Array, Array, Array]:
@@ -157,9 +141,9 @@ def _state_after(pieces: Pieces, time: float) -> State:
 
 def _of_each(pieces: Pieces) -> tuple[JointMotion, ...]:
     """The motion of each joint."""
-    begins = np.cumsum(pieces.lengths, axis=1) - pieces.lengths
+    starts = begins(0.0, pieces)
     return tuple(
-        JointMotion(starts=begins[joint, lasting], pieces=take(pieces, (joint, lasting)))
+        JointMotion(starts=starts[joint, lasting], pieces=take(pieces, (joint, lasting)))
         for joint, lasting in enumerate(pieces.lengths > 0.0)
     )
 

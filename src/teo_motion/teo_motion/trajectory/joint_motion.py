@@ -4,7 +4,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -138,6 +139,52 @@ def take(pieces: Pieces, index: NDArray[np.intp] | int | tuple[Any, ...]) -> Pie
     )
 
 
+def standing(positions: Array) -> Pieces:
+    """One piece for each position [rad], in which a joint stands still there for a second. Shape (..., 1)."""
+    zero = np.zeros((*positions.shape, 1))
+    return Pieces(
+        lengths=np.ones_like(zero),
+        positions=positions[..., None],
+        velocities=zero,
+        accelerations=zero,
+        jerks=zero,
+    )
+
+
+def begins(start: float, pieces: Pieces) -> Array:
+    """When each piece begins if they follow one another along the last axis from a time on [s]."""
+    times: Array = start + np.cumsum(pieces.lengths, axis=-1) - pieces.lengths
+    return times
+
+
+def in_a_row(parts: Sequence[Pieces]) -> Pieces:
+    """Pieces that follow one another along the last axis."""
+    return Pieces(
+        **{
+            field.name: np.concatenate([getattr(part, field.name) for part in parts], axis=-1)
+            for field in fields(Pieces)
+        }
+    )
+
+
+def in_order(starts: Array, pieces: Pieces, duration: float) -> JointMotion:
+    """The motion of a joint, each piece of which ends where the next begins.
+
+    Args:
+        starts: When each piece begins [s]. Shape (n,).
+        pieces: The pieces, of which those of no length are left out. Shape (n,).
+        duration: When the last one ends [s].
+    """
+    lasting = np.flatnonzero(pieces.lengths > 0.0)
+    starts = starts[lasting]
+    # Sums in another order differ in the last digits: where a piece would begin at or after the next one, it
+    # is left out too.
+    keep = np.append(starts[:-1] < np.minimum.accumulate(starts[:0:-1])[::-1], True)
+    starts = starts[keep]
+    kept = replace(take(pieces, lasting[keep]), lengths=np.diff(starts, append=duration))
+    return JointMotion(starts=starts, pieces=kept)
+
+
 class JointMotionBuilder:
     """Collects the pieces of one joint, in order."""
 
@@ -147,37 +194,14 @@ class JointMotionBuilder:
         self._pieces: list[Pieces] = []
 
     def add(self, start: float, pieces: Pieces) -> None:
-        """Add pieces of shape (k,) that follow one another from a time on [s], but for those of no length."""
-        begins = start + np.cumsum(pieces.lengths) - pieces.lengths
-        lasting = np.flatnonzero(pieces.lengths > 0.0)
-        self._starts.append(begins[lasting])
-        self._pieces.append(take(pieces, lasting))
+        """Add pieces of shape (k,) that follow one another from a time on [s]."""
+        self._starts.append(begins(start, pieces))
+        self._pieces.append(pieces)
 
     def hold(self, start: float, position: float) -> None:
         """Stand still from a time on [s], at a position [rad], until the next pieces begin."""
-        zero = np.zeros(1)
-        self.add(
-            start,
-            Pieces(
-                lengths=np.ones(1),
-                positions=np.array([position]),
-                velocities=zero,
-                accelerations=zero,
-                jerks=zero,
-            ),
-        )
+        self.add(start, standing(np.array(position)))
 
     def build(self, duration: float) -> JointMotion:
         """The motion, which ends at a time [s]."""
-        starts = np.concatenate(self._starts)
-        # Sums in another order differ in the last digits: where a piece would begin at or after the next one,
-        # it is left out, and each piece ends where the next begins.
-        keep = np.append(starts[:-1] < np.minimum.accumulate(starts[:0:-1])[::-1], True)
-        pieces = Pieces(
-            lengths=np.diff(starts[keep], append=duration),
-            positions=np.concatenate([item.positions for item in self._pieces])[keep],
-            velocities=np.concatenate([item.velocities for item in self._pieces])[keep],
-            accelerations=np.concatenate([item.accelerations for item in self._pieces])[keep],
-            jerks=np.concatenate([item.jerks for item in self._pieces])[keep],
-        )
-        return JointMotion(starts=starts[keep], pieces=pieces)
+        return in_order(np.concatenate(self._starts), in_a_row(self._pieces), duration)

@@ -10,15 +10,15 @@ are taken from the pieces of the segment here.
 
 from __future__ import annotations
 
-import functools
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import ruckig
 
 from teo_common.arrays import Array
-from teo_motion.trajectory.joint_motion import Extremes, Pieces
+from teo_motion.trajectory.joint_motion import Extremes, Pieces, take
 from teo_signs.errors import PlanError
 
 # A motion may be beyond a position limit by this much, from the rounding of its sums [rad].
@@ -97,22 +97,27 @@ class State:
 
 
 class RuckigSegment:
-    """A motion of some joints from one state to another, as Ruckig calculated it."""
+    """A motion of some joints from one state to another, as Ruckig calculated it.
+
+    Attributes:
+        trajectory: What it calculated.
+        start: State at which it starts.
+    """
 
     def __init__(self, trajectory: ruckig.Trajectory, start: State) -> None:
         """Keep Ruckig's trajectory and the state at which it starts."""
-        self._trajectory = trajectory
-        self._start = start
+        self.trajectory = trajectory
+        self.start = start
 
     @property
     def duration(self) -> float:
         """How long the segment takes [s]."""
-        return float(self._trajectory.duration)
+        return float(self.trajectory.duration)
 
-    @functools.cached_property
+    @property
     def pieces(self) -> Pieces:
         """Row for row the pieces of each joint, in order; some have no length. Shape (m, k)."""
-        return _pieces(self._trajectory, self._start)
+        return take(pieces_of([self]), 0)
 
 
 class RuckigSolver:
@@ -178,7 +183,7 @@ class RuckigSolver:
         trajectory = ruckig.Trajectory(self._joints)
         # To a standstill there is a way from every state: it raises nothing and always finds one.
         self._generator.calculate(given, trajectory)
-        return _pieces(trajectory, start)
+        return RuckigSegment(trajectory, start).pieces
 
     def smooth_segments(
         self, begin: State, end: State, bounds: Bounds, *, duration: float
@@ -206,35 +211,31 @@ class RuckigSolver:
     def _list(self, name: str, values: Array, *, positive: bool = False) -> list[float]:
         if values.shape != (self._joints,):
             raise PlanError("bad_state", f"{name}: expected {self._joints} numbers, got shape {values.shape}")
-        if not np.isfinite(values).all() or (positive and not (values > 0.0).all()):
-            kind = "finite numbers above 0" if positive else "finite numbers"
-            raise PlanError("bad_state", f"{name}: expected {kind}, got {values.tolist()}")
         numbers: list[float] = values.tolist()
+        if not all(map(math.isfinite, numbers)) or (positive and min(numbers) <= 0.0):
+            kind = "finite numbers above 0" if positive else "finite numbers"
+            raise PlanError("bad_state", f"{name}: expected {kind}, got {numbers}")
         return numbers
 
 
-def _pieces(trajectory: ruckig.Trajectory, start: State) -> Pieces:
-    """Row for row the pieces of each joint, in order; some have no length. Shape (m, k)."""
+def pieces_of(segments: Sequence[RuckigSegment]) -> Pieces:
+    """The pieces of each joint of segments of the same joints; some have no length. Shape (n, m, k)."""
     # The brake comes first: what brings a joint that starts beyond its limits back within them.
-    table = np.array(
-        [
-            (
-                (*brake.t, *item.t),
-                (*brake.p, *item.p[:-1]),
-                (*brake.v, *item.v[:-1]),
-                (*brake.a, *item.a[:-1]),
-                (*brake.j, *item.j),
-            )
-            for brake, item in ((item.brake, item) for item in trajectory.profiles[0])
-        ]
-    )
-    lengths, positions = table[:, 0], table[:, 1]
+    numbers: list[float] = []  # in one list, which becomes an array sooner than lists of lists
+    for segment in segments:
+        for item in segment.trajectory.profiles[0]:
+            brake = item.brake
+            numbers += brake.t + item.t + brake.p + item.p[:-1] + brake.v + item.v[:-1]
+            numbers += brake.a + item.a[:-1] + brake.j + item.j
+    begins = np.array([segment.start.position for segment in segments])
+    table = np.array(numbers).reshape(*begins.shape, 5, -1)
+    lengths, positions, velocities, accelerations, jerks = np.moveaxis(table, 2, 0)
     return Pieces(
         lengths=lengths,
-        positions=np.where(lengths > 0.0, positions, start.position[:, None]),
-        velocities=table[:, 2],
-        accelerations=table[:, 3],
-        jerks=table[:, 4],
+        positions=np.where(lengths > 0.0, positions, begins[..., None]),
+        velocities=velocities,
+        accelerations=accelerations,
+        jerks=jerks,
     )
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_common.arrays import Array
+from teo_motion.trajectory.joint_motion import Pieces
 from teo_motion.trajectory.ruckig_segment import (
     ROUNDING,
     Bounds,
@@ -62,6 +63,7 @@ class WaypointChain:
         self._accelerations = np.zeros_like(positions)
         # What each segment was when it fitted: state at its begin and end as shares of the limits, duration.
         self._fitted = np.full((len(waypoints) - 1, 4, len(columns)), np.inf)
+        self._shares = np.zeros_like(self._fitted)
         self._fitted_durations = np.zeros(len(waypoints) - 1)
 
     def pass_at(self, times: Array) -> None:
@@ -77,19 +79,22 @@ class WaypointChain:
         most = np.minimum(0.99 * room, self.bounds.acceleration)
         accelerations[1:] = np.clip(accelerations, -most, most)[1:]
         self._velocities, self._accelerations = velocities, accelerations
+        # The same at both ends of each segment, over the limits.
+        fast, hard = velocities / top, accelerations / self.bounds.acceleration
+        self._shares = np.stack([fast[:-1], hard[:-1], fast[1:], hard[1:]], axis=1)
 
     def to_try(self, *, exact: bool) -> list[int]:
         """Indices of segments that changed since they fitted: by `_CHANGE` or, if `exact`, by anything."""
         change = 0.0 if exact else _CHANGE
-        shares = np.abs(self._shares() - self._fitted).max(axis=(1, 2))
+        shares = np.abs(self._shares - self._fitted).max(axis=(1, 2))
         longer = self._durations / np.maximum(self._fitted_durations, 1e-300) - 1.0
         known = (shares <= change) & (np.abs(longer) <= change)
         return [index for index in self.moving.tolist() if not known[index]]
 
-    def fits(self, index: int) -> None:
-        """Record the states and duration with which a segment fits, for `to_try`."""
-        self._fitted[index] = self._shares()[index]
-        self._fitted_durations[index] = self._durations[index]
+    def fit(self, indices: list[int]) -> None:
+        """Record the states and durations with which segments fit, for `to_try`."""
+        self._fitted[indices] = self._shares[indices]
+        self._fitted_durations[indices] = self._durations[indices]
 
     def slow(self, index: int, joints: NDArray[np.bool_] | slice, factor: float) -> None:
         """Pass both ends of a segment more slowly, by a factor."""
@@ -132,39 +137,33 @@ class WaypointChain:
         )
         return begin, end
 
-    def beyond(self, index: int, segment: RuckigSegment) -> NDArray[np.bool_]:
-        """Which joints leave the interval between two waypoints by more than `OVERSHOOT`. Shape (m,).
+    def to_slow(self, indices: list[int], pieces: Pieces) -> NDArray[np.bool_]:
+        """Which joints have to pass the waypoints of segments more slowly. Shape (n, m).
 
-        A joint that leaves its limits is always among them.
+        Those that leave the interval between the two by more than `OVERSHOOT`, or their limits; all of a
+        segment that goes beyond the greatest velocity. From the start a joint may do both: one that moves
+        there needs room to turn, and may be too fast already.
+
+        Args:
+            indices: Of the waypoints from which the segments leave. Length n.
+            pieces: Of the segments. Shape (n, m, k).
         """
-        ends = self.positions[index : index + 2]
+        ends = np.stack((self.positions[:-1], self.positions[1:]))[:, indices]
         lowest = np.maximum(ends.min(axis=0) - OVERSHOOT, self.bounds.lower - ROUNDING)
         highest = np.minimum(ends.max(axis=0) + OVERSHOOT, self.bounds.upper + ROUNDING)
-        least, greatest = segment.pieces.range()
-        beyond: NDArray[np.bool_] = (least < lowest) | (greatest > highest)
-        if index == 0:
-            beyond &= self._start.velocity == 0.0  # a joint that moves at the start needs room to turn
-        return beyond
-
-    def is_too_fast(self, index: int, segment: RuckigSegment) -> bool:
-        """Whether a segment goes beyond the greatest velocity; from the start it may, if the robot does."""
-        if index == 0:
-            return False
-        pieces = segment.pieces
+        least, greatest = pieces.range()
+        slow: NDArray[np.bool_] = (least < lowest) | (greatest > highest)
         with np.errstate(divide="ignore", invalid="ignore"):
             peak = -pieces.accelerations / pieces.jerks
         inside = np.isfinite(peak) & (peak > 0.0) & (peak < pieces.lengths)
         times = np.where(inside, peak, 0.0)
-        lasting = pieces.lengths > 0.0
         speeds = np.abs(pieces.velocities + times * (pieces.accelerations + times * pieces.jerks / 2.0))
         top = self.bounds.velocity[:, None] * (1.0 + ROUNDING)
-        return bool(((speeds > top) & lasting).any())
-
-    def _shares(self) -> Array:
-        """Velocities and accelerations at the ends of each segment, over the limits. Shape (n - 1, 4, m)."""
-        velocities = self._velocities / self.bounds.velocity
-        accelerations = self._accelerations / self.bounds.acceleration
-        return np.stack([velocities[:-1], accelerations[:-1], velocities[1:], accelerations[1:]], axis=1)
+        too_fast = ((speeds > top) & (pieces.lengths > 0.0)).any(axis=(1, 2))
+        starting = np.array(indices) == 0
+        slow[starting] &= self._start.velocity == 0.0
+        slow[too_fast & ~starting] = True
+        return slow
 
 
 def waypoint_chains(targets: Array, start: State, bounds: Bounds) -> tuple[WaypointChain, ...]:

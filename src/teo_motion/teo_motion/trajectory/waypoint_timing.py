@@ -15,8 +15,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_common.arrays import Array
-from teo_motion.trajectory.joint_motion import JointMotion, JointMotionBuilder, take
-from teo_motion.trajectory.ruckig_segment import FITS, Bounds, RuckigSegment, State
+from teo_motion.trajectory.joint_motion import (
+    JointMotion,
+    Pieces,
+    begins,
+    in_a_row,
+    in_order,
+    standing,
+    take,
+)
+from teo_motion.trajectory.ruckig_segment import FITS, Bounds, RuckigSegment, State, pieces_of
 from teo_motion.trajectory.waypoint_chain import WaypointChain, waypoint_chains
 from teo_signs.errors import PlanError
 
@@ -55,7 +63,6 @@ class WaypointTiming:
             start: State at the first waypoint; its position is the first row of `targets`.
             bounds: Limits of the m joints.
         """
-        self._joints = targets.shape[1]
         self._durations = np.maximum(nominal, LEAST_STEP)
         self._strokes = strokes
         self._chains = waypoint_chains(targets, start, bounds)
@@ -82,17 +89,18 @@ class WaypointTiming:
             PlanError: No times are found ("no_timing"); no input is known for which this happens.
         """
         exact = False
+        moving = [chain for chain in self._chains if chain.moving.size]
         for round_number in range(_ROUNDS):
             patient = round_number < _PATIENT_ROUNDS
             times = self.times
             changed = False
-            for chain in self._chains:
+            for chain in moving:
                 chain.pass_at(times)
+            to_try = [chain.to_try(exact=exact) for chain in moving]
             for single in (True, False):
-                for chain in self._chains:
-                    for index in chain.to_try(exact=exact):
-                        if chain.is_single(index) == single:
-                            changed |= self._try(chain, index, patient=patient)
+                for chain, indices in zip(moving, to_try, strict=True):
+                    these = [index for index in indices if chain.is_single(index) == single]
+                    changed |= self._try(chain, these, patient=patient)
                 if self._wanted.any():
                     break  # segments that pass waypoints may fit once these have more time
             changed |= self._stretch()
@@ -109,24 +117,21 @@ class WaypointTiming:
             end: When the motions end [s], at or after the last waypoint, where the joints stay.
         """
         times = self.times + begin
-        builders = [JointMotionBuilder() for _ in range(self._joints)]
+        found: dict[int, JointMotion] = {}
         for chain in self._chains:
-            if begin > 0.0:
-                for column, position in zip(chain.columns, chain.positions[0].tolist(), strict=True):
-                    builders[column].hold(0.0, position)
-            moving = set(chain.moving.tolist())
-            for index in range(len(chain.waypoints) - 1):
-                leave = float(times[chain.waypoints[index]])
-                if index in moving:
-                    pieces = self._final_segment(chain, index).pieces
-                    for row, column in enumerate(chain.columns):
-                        builders[column].add(leave, take(pieces, row))
-                elif index == 0 or index - 1 in moving:  # else the joints stand still already
-                    for column, position in zip(chain.columns, chain.positions[index].tolist(), strict=True):
-                        builders[column].hold(leave, position)
-            for column, position in zip(chain.columns, chain.positions[-1].tolist(), strict=True):
-                builders[column].hold(float(times[-1]), position)
-        return tuple(builder.build(end) for builder in builders)
+            segments = _final_segments(chain)
+            # When the joints leave each waypoint, and how.
+            leaving = [(0.0, standing(chain.positions[0]))] if begin > 0.0 else []
+            for index, time in enumerate(times[chain.waypoints].tolist()):
+                if index in segments:
+                    leaving.append((time, segments[index]))
+                elif index == 0 or index - 1 in segments:  # else the joints stand still already
+                    leaving.append((time, standing(chain.positions[index])))
+            starts = np.concatenate([begins(time, pieces) for time, pieces in leaving], axis=1)
+            pieces = in_a_row([pieces for _, pieces in leaving])
+            for row, column in enumerate(chain.columns):
+                found[column] = in_order(starts[row], take(pieces, row), end)
+        return tuple(found[column] for column in sorted(found))
 
     def _want(self, chain: WaypointChain, index: int, needed: float, *, most: float = math.inf) -> bool:
         """Ask for the time that a segment needs, at most by a factor at once; whether it has too little."""
@@ -153,31 +158,48 @@ class WaypointTiming:
         wanted[:] = 0.0
         return True
 
-    def _try(self, chain: WaypointChain, index: int, *, patient: bool) -> bool:
-        """Try a segment; if it does not fit, ask for time or slow its ends down. True if anything changed."""
+    def _try(self, chain: WaypointChain, indices: list[int], *, patient: bool) -> bool:
+        """Try segments; where one does not fit, ask for time or slow its ends down. True if any did not."""
         slower = 0.5 if patient else 0.0
-        segment = chain.segment(index)
-        if segment is None:
-            if chain.is_rest_to_rest(index):
-                raise PlanError("no_timing", "expected a segment from rest to rest, got none")
-            chain.slow(index, slice(None), slower)
-            return True
-        if self._want(chain, index, segment.duration, most=_PATIENT_STRETCH if patient else math.inf):
-            if not patient:
+        in_time: dict[int, RuckigSegment] = {}
+        for index in indices:
+            segment = chain.segment(index)
+            if segment is None:
+                if chain.is_rest_to_rest(index):
+                    raise PlanError("no_timing", "expected a segment from rest to rest, got none")
                 chain.slow(index, slice(None), slower)
-            return True
-        beyond = chain.beyond(index, segment)
-        if chain.is_too_fast(index, segment):
-            beyond[:] = True
-        if beyond.any():
-            chain.slow(index, beyond, slower)
-            return True
-        chain.fits(index)
-        return False
+            elif self._want(chain, index, segment.duration, most=_PATIENT_STRETCH if patient else math.inf):
+                if not patient:
+                    chain.slow(index, slice(None), slower)
+            else:
+                in_time[index] = segment
+        if not in_time:
+            return bool(indices)
+        fitting = []
+        for index, joints in zip(
+            in_time, chain.to_slow(list(in_time), pieces_of(list(in_time.values()))), strict=True
+        ):
+            if joints.any():
+                chain.slow(index, joints, slower)
+            else:
+                fitting.append(index)
+        chain.fit(fitting)
+        return len(fitting) < len(indices)
 
-    def _final_segment(self, chain: WaypointChain, index: int) -> RuckigSegment:
-        """The segment with the least acceleration and jerk that still takes its time."""
-        for segment in chain.smooth_segments(index):
-            if not chain.beyond(index, segment).any() and not chain.is_too_fast(index, segment):
-                return segment
-        raise PlanError("no_timing", "expected a segment that was found before, got none")
+
+def _final_segments(chain: WaypointChain) -> dict[int, Pieces]:
+    """The segments with the least acceleration and jerk that still take their time. Shape (m, k) each."""
+    found: dict[int, Pieces] = {}
+    waiting = {index: chain.smooth_segments(index) for index in chain.moving.tolist()}
+    while waiting:
+        smoothest = [next(segments, None) for segments in waiting.values()]
+        segments = [segment for segment in smoothest if segment is not None]
+        if len(segments) < len(waiting):
+            raise PlanError("no_timing", "expected segments that were found before, got none")
+        pieces = pieces_of(segments)
+        slow = chain.to_slow(list(waiting), pieces)
+        for row, index in enumerate(list(waiting)):
+            if not slow[row].any():
+                found[index] = take(pieces, row)
+                del waiting[index]
+    return found
