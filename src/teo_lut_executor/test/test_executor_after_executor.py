@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from rclpy.parameter import Parameter
@@ -16,11 +17,14 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from small_robot import Graph, running, save_table
 from teo_sign_msgs.msg import ExecutorStatus, SignSentence
 
+from teo_description.humanoid import load_humanoid
 from teo_lut_executor.execution.interface import Sentence
 from teo_lut_executor.execution.journal import Journal
 from teo_lut_executor.node.executor_node import ExecutorNode
+from teo_names import COMMANDED_JOINTS
 from teo_signs.tokens import parse_printed
 
+REST = load_humanoid().ready
 # As the translator's publisher keeps what it said.
 KEPT = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
@@ -89,6 +93,23 @@ def test_what_a_killed_executor_left_is_signed_or_named(graph: Graph, domain_id:
         assert graph.refused() == [("interrupted", "TURN"), ("expired", "A-N-A")]
         assert set(signed(graph)) == {"NOD"}
     assert Journal(folder / f"domain{domain_id}.executor.jsonl").left == ()
+
+
+@pytest.mark.slow
+def test_a_robot_that_a_killed_executor_left_half_way_goes_to_rest_though_nothing_is_signed_any_more(
+    graph: Graph, domain_id: int, tmp_path: Path
+) -> None:
+    folder = tmp_path / "other"
+    journal = Journal(folder / f"domain{domain_id}.executor.jsonl")
+    journal.accepted(1, Sentence(tokens=parse_printed("NOD"), utterance_id="NOD"), time.time() - 1e4)
+    journal.begin()
+    journal.close()
+    graph.node.destroy_node()
+    graph.robot.stand(FrontalRightElbow=REST[COMMANDED_JOINTS.index("FrontalRightElbow")] - 0.3)
+    with next_executor(graph, folder):
+        graph.spin_until(lambda: graph.refused() == [("expired", "NOD")])
+        graph.spin_until(lambda: graph.robot.states()[-1] == ExecutorStatus.STATE_IDLE)
+        np.testing.assert_allclose(graph.robot.positions, REST, atol=0.02)
 
 
 @pytest.mark.slow

@@ -53,7 +53,7 @@ class SmallRobot(Node):
         self.path: list[tuple[float, np.ndarray]] = []  # time [s] and positions [rad] of every step
         # By which a motion came after its stamp, at most [s]; the robot makes up for it at once.
         self.late = 0.0
-        self.stand_at_home()
+        self.stand()
         self._states = self.create_publisher(JointState, "joint_states", 10)
         self._reports = self.create_publisher(DriverState, "driver_state", LATCHED)
         self.create_subscription(JointTrajectory, "joint_trajectory", self._on_trajectory, 10)
@@ -61,9 +61,9 @@ class SmallRobot(Node):
         self.tokens = self.create_publisher(SignSentence, "sign_tokens", 1000)
         self.create_timer(1.0 / RATE, self._step)
 
-    def stand_at_home(self) -> None:
-        """Be at home, at rest."""
-        self.positions = np.array([HOME[name] for name in COMMANDED_JOINTS])
+    def stand(self, **elsewhere: float) -> None:
+        """Be at rest, at home but for some joints [rad]."""
+        self.positions = np.array([(HOME | elsewhere)[name] for name in COMMANDED_JOINTS])
         self._times = np.zeros(1)  # [s], of the clock
         self._points = self.positions[None]
         self._motions: list[tuple[float, float]] = []  # begin and end of what it follows [s], of the clock
@@ -140,7 +140,7 @@ class Graph:
         )
         self.spin_until(lambda: self.robot.states()[-1:] == [ExecutorStatus.STATE_IDLE])
         assert not self.robot.statuses[-1].queued
-        self.robot.stand_at_home()
+        self.robot.stand()
         self.utterances = 0
         del self.robot.statuses[:-1]
         self.robot.received.clear()

@@ -104,6 +104,10 @@ class ExecutionQueue:
         self._work.tick(now)
         return named(self._work, sentence, error)
 
+    def recover(self) -> None:
+        """Bring the robot to rest once nothing waits: it may have been left anywhere."""
+        self._work.astray = True
+
     def cancel(self, ticket: int, now: float) -> list[Effect]:
         """End a sentence: one that waits is forgotten, the current one stops and goes back to rest."""
         self._work.tick(now)

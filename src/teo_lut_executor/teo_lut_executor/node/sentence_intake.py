@@ -233,6 +233,8 @@ class SentenceIntake:
                 self._refuse(kept.sentence, _expired(waited))
             else:
                 self._submit(kept.sentence, attempts=kept.attempts)
+        if self._journal.left:
+            self._queue.recover()
         self._journal.begin()
 
     def give_feedback(self, progress: Progress) -> None:
