@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Planning: how long a sentence takes, and whether any of 10,000 random plans breaks a limit.
+"""Planning: how much processor time a sentence takes, and whether any of 10,000 random plans breaks a limit.
 
 Limits are looked at in what a driver makes of a plan's points, a quintic between each two, every 2 ms.
 """
@@ -10,6 +10,7 @@ from __future__ import annotations
 import multiprocessing
 import os
 import time
+from contextlib import suppress
 from typing import NamedTuple
 
 import numpy as np
@@ -28,6 +29,7 @@ from teo_signs.tokens import Kind, Token, parse_printed
 from teo_sim_driver import Trajectory
 
 _LETTERS = 10
+_WORDS_OF_RANDOM = 6  # of the longest
 _LOOK = 0.002  # [s]: a tenth of the time between two points
 _BATCH = 50  # plans of one random table
 _OWN = 20  # one batch in so many plans from the package's table: ways round the body take a second each
@@ -58,7 +60,7 @@ class _Batch(NamedTuple):
 
 def measure(plans: int = 10_000, sentences: int = 200) -> list[Figure]:
     """Times of so many sentences, then the limits of random plans."""
-    figures = [*_times(sentences), _planning_of_letters(sentences // 4)]
+    figures = [*_times(sentences), _planning_of_random(sentences), _planning_of_letters(sentences // 4)]
     shares = [range(begin, min(begin + _BATCH, plans)) for begin in range(0, plans, _BATCH)]
     with multiprocessing.get_context("spawn").Pool(os.cpu_count()) as pool:
         batches = pool.map(_random_plans, shares, chunksize=4)
@@ -77,7 +79,7 @@ def measure(plans: int = 10_000, sentences: int = 200) -> list[Figure]:
 
 
 def _times(count: int) -> list[Figure]:
-    """Planning time of typical sentences, self-collision included."""
+    """Processor time that planning typical sentences takes, self-collision included."""
     planner = Planner(Lut.open(default_lut_directory()), robot=Robot.load())
     sentences = [parse_printed(text) for text in _PRINTED]
     for sentence in sentences:
@@ -86,18 +88,32 @@ def _times(count: int) -> list[Figure]:
     seconds, with_head, signing = [], [], []
     for index in range(count):
         sentence = sentences[index % len(sentences)]
-        began = time.perf_counter()
+        began = time.process_time()
         plan = planner.plan(sentence)
-        seconds.append(time.perf_counter() - began)
+        seconds.append(time.process_time() - began)
         signing.append(plan.duration)
-        began = time.perf_counter()
+        began = time.process_time()
         planner.plan(sentence, form=asked)
-        with_head.append(time.perf_counter() - began)
+        with_head.append(time.process_time() - began)
     return [
         percentiles("plan a sentence", seconds),
         percentiles("the same as negated questions, head and all", with_head),
         Figure("signing time of those sentences", f"median {np.median(signing):.1f} s"),
     ]
+
+
+def _planning_of_random(count: int) -> Figure:
+    """The same of sentences of words and letters drawn from the table."""
+    table = Lut.open(default_lut_directory())
+    planner, dice = Planner(table, robot=Robot.load()), np.random.default_rng(3)
+    signs, seconds = dict(table), []
+    for _ in range(count):
+        tokens = random_tokens(dice, signs, most=_WORDS_OF_RANDOM, scales=(1.0,))
+        began = time.process_time()
+        with suppress(PlanError):
+            planner.plan(tokens)
+        seconds.append(time.process_time() - began)
+    return percentiles("plan a random sentence", seconds)
 
 
 def _planning_of_letters(count: int) -> Figure:
@@ -107,9 +123,9 @@ def _planning_of_letters(count: int) -> Figure:
     seconds = []
     for _ in range(count):
         word = dice.choice(letters, _LETTERS).tolist()
-        began = time.perf_counter()
+        began = time.process_time()
         planner.plan([Token(gloss=letter, kind=Kind.LETTER) for letter in word])
-        seconds.append(time.perf_counter() - began)
+        seconds.append(time.process_time() - began)
     return percentiles(f"plan a word of {_LETTERS} letters", seconds)
 
 

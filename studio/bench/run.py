@@ -36,7 +36,7 @@ BENCHES = (
     "words",
     "nodes.text_to_trajectory",
     "nodes.stops",
-    "nodes.kills",
+    "nodes.faults",
     "nodes.machines",
     "retargeting",
     "recognition",
