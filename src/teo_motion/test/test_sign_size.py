@@ -9,7 +9,9 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from nearest_parts import touching
+from thumb_capsules import thumb_gap
 
+from teo_description.hand_geometry import TOUCH
 from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
 from teo_motion.sentence.sign_size import SignSize
@@ -97,6 +99,14 @@ def test_fingers_that_fold_one_after_the_other_move_together_for_a_while(
     assert slowest[1] < 0.75 * slowest[0]
     half = [np.argmax(flowing.knots[:, column] > 0.75) for column in fingers]
     assert half == sorted(half) and len(set(half)) == 4, "and still one after the other"
+
+
+@pytest.mark.parametrize("gloss", ["NEVERA", "A_VECES", "LÁPIZ_DE_COLOR"])
+def test_a_smaller_sign_has_no_thumb_in_a_finger_where_it_begins_and_ends(robot: Robot, gloss: str) -> None:
+    smaller = fitted(robot, Lut.open()[gloss])
+    hand = [smaller.joints.index(name) for name in RIGHT_HAND]
+    for knot in (0, -1):
+        assert thumb_gap(robot, smaller.knots[knot, hand], "Right") >= -TOUCH - 3e-4
 
 
 def test_what_is_repeated_four_times_is_repeated_twice(robot: Robot, make_sign: Callable[..., Sign]) -> None:

@@ -7,7 +7,8 @@ falls apart into postures. A sign that would take longer than asked for is there
 its centre: arms, trunk, and fingers that come back to where they were, as in a wiggle. A handshape that opens
 once is kept: half open it is another one. So are places and palms that differ: no hand moves or turns further
 than what a reader takes for the same. A sign that touches is drawn together around the contact, one that
-touches in several postures is left as large as it is. What is repeated more than twice is repeated twice:
+touches in several postures is left as large as it is. Fingers that come back keep their size where half of
+their way would have the thumb in a finger. What is repeated more than twice is repeated twice:
 that it repeats is told by the second time. Where that is not enough, fingers begin a way before a knot and
 end it after.
 """
@@ -23,6 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_common.arrays import Array
+from teo_description.hand_geometry import TOUCH, hand_table, thumb_gaps
 from teo_description.robot import Robot
 from teo_motion.trajectory.limits import MotionLimits
 from teo_signs.lexicon import SignedToken
@@ -72,10 +74,12 @@ class SignSize:
             least: The smallest size that a sign is given, 0 to 1; 1 leaves every sign as it is.
         """
         self._robot = robot
+        self._table = hand_table(robot)
         self._limits = limits
         humanoid = robot.humanoid
         self._arms_and_trunk = {*humanoid.trunk, *humanoid.arm("left"), *humanoid.arm("right")}
-        self._hands = {*humanoid.hand("left"), *humanoid.hand("right")}
+        self._each_hand = humanoid.hand("left"), humanoid.hand("right")
+        self._hands = {joint for hand in self._each_hand for joint in hand}
         palm = humanoid.file.hand.palm
         self._palm_frames = humanoid.mirrored_name(palm), palm
         self._sizes = tuple(np.arange(1.0 - _STEP, least - 1e-9, -_STEP).tolist())
@@ -114,21 +118,33 @@ class SignSize:
     def _smaller(self, sign: Sign, palms: Array, centre: Array, scale: float) -> Sign:
         """The largest size that fits, or the smallest that is taken for the same sign as those palms show.
 
-        Where palms may not differ any more, fingers still come down.
+        Where palms may not differ any more, fingers still come down; where a thumb would be in one, arms do.
         """
-        found, arms = sign, 1.0
+        found, arms, hands = sign, 1.0, 1.0
+        least_gap = min(-TOUCH, self._thumb_gap(sign))
         for size in self._sizes:
-            smaller = self._drawn_together(sign, centre, arms=size, hands=size)
+            if self._thumb_gap(self._drawn_together(sign, centre, arms=1.0, hands=size)) >= least_gap:
+                hands = size
+            smaller = self._drawn_together(sign, centre, arms=size, hands=hands)
             if _look_the_same(palms, self._palms(smaller)):
                 arms = size
             else:
-                smaller = self._drawn_together(sign, centre, arms=arms, hands=size)
+                smaller = self._drawn_together(sign, centre, arms=arms, hands=hands)
             if self._touches(smaller, 0.0).any():
                 break
             found = smaller
             if self._fits(found, scale):
                 break
         return found
+
+    def _thumb_gap(self, sign: Sign) -> float:
+        """Least distance of a thumb from the fingers of its hand at a knot [m]; negative is overlap."""
+        hands = (
+            sign.knots[:, [sign.joints.index(name) for name in hand]]
+            for hand in self._each_hand
+            if set(hand) <= set(sign.joints)
+        )
+        return min((float(thumb_gaps(self._table, hand).min()) for hand in hands), default=np.inf)
 
     def _palms(self, sign: Sign) -> Array:
         """Poses of both palms at every knot. Shape (n, 2, 4, 4)."""
