@@ -1,23 +1,28 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""How long sentences are signed, beside the least that their postures need.
+"""How long sentences are signed, beside the least that their postures need, and what takes the time.
 
 Known sentences are translated and planned, each from rest to rest: as the planner does, from arms that hang
-and with words as captured, and with the fastest motors in the hands.
+and with words as captured, and with the fastest motors in the hands. Of the first, the time goes by rooms
+(raising, signs, spelled words, ways between them, lowering) and by what bounds it: at each instant the joint
+that is nearest to one of its limits.
 """
 
 from __future__ import annotations
 
 import dataclasses
+from collections import Counter
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
 
 import numpy as np
 
 from glosses.systems import lines
 from report import Figure
+from teo_common.arrays import Array
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
-from teo_motion.sentence.plan import Plan
+from teo_motion.sentence.plan import Plan, sample_at
 from teo_motion.sentence.signing_style import RestPosture
 from teo_motion.trajectory.limits import MotionLimits
 from teo_sign_translator.errors import TranslationError
@@ -25,10 +30,25 @@ from teo_sign_translator.pipeline.translator import Translator
 from teo_signs.errors import PlanError
 from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign import Sign
-from teo_signs.tokens import Token
+from teo_signs.tokens import Kind, Token
 from words import founded_signs, tokens_of
 
 _FASTEST = "spool_380_high_power"  # motors sold for the hand
+
+# What joints are told apart as, by what their names have in them; the first that fits.
+_GROUPS = {
+    "Thumb": "thumb",
+    "Abductor": "thumb",
+    "Finger": "fingers",
+    "Wrist": "wrists",
+    "Elbow": "elbows",
+    "Shoulder": "shoulders",
+    "": "head and trunk",
+}
+_QUANTITIES = ("velocity", "acceleration or jerk", "acceleration or jerk")
+# Nearer to a limit than this, a motion is bounded by it [1]; what is farther from all stands still or waits
+# for its time.
+_BOUNDED = 0.5
 
 
 def measure(every: int = 48) -> list[Figure]:
@@ -73,6 +93,8 @@ def _figures(
             refused += 1
     seconds = [plan.duration for plan in plans]
     bounds = [_bound(plan, limits) for plan in plans]
+    rooms: Counter[str] = sum((_rooms(plan) for plan in plans), Counter())
+    bounded: Counter[str] = sum((_bounded_by(plan, limits) for plan in plans), Counter())
     return [
         Figure(
             f"{len(plans)} known sentences, {what}",
@@ -82,7 +104,58 @@ def _figures(
             f"{what}: if every joint were always at its limit",
             f"median {np.median(bounds):.1f} s, mean {np.mean(bounds):.1f} s",
         ),
+        Figure(f"{what}: by room", _shares(rooms)),
+        Figure(f"{what}: by what bounds it", _shares(bounded)),
     ]
+
+
+def _shares(seconds: Counter[str]) -> str:
+    """What takes how much of the whole, the most first; what takes less than 1 % is left out."""
+    total = seconds.total()
+    return ", ".join(
+        f"{name} {100.0 * part / total:.0f} %" for name, part in seconds.most_common() if part >= 0.01 * total
+    )
+
+
+def _rooms(plan: Plan) -> Counter[str]:
+    """Seconds of a plan in each of its rooms."""
+    first, last = plan.timings[0], plan.timings[-1]
+    found = Counter({"raising": first.start, "lowering": plan.duration - last.start - last.duration})
+    for timing in plan.timings:
+        pause = timing.token.kind is Kind.PAUSE
+        found["spelling" if timing.token.spelled else "pauses" if pause else "signs"] += timing.duration
+    for one, other in pairwise(plan.timings):
+        way = other.start - one.start - one.duration
+        same = one.token.spelled and other.token.spelled and one.token.word_index == other.token.word_index
+        found["spelling" if same else "ways"] += way
+    return found
+
+
+def _bounded_by(plan: Plan, limits: MotionLimits) -> Counter[str]:
+    """Seconds of a plan by the joints and the limit that are nearest to each other meanwhile."""
+    times: Array = (plan.times[:-1] + plan.times[1:]) / 2.0
+    samples = sample_at(plan.motions, times)
+    jerks = np.stack(
+        [
+            motion.pieces.jerks[np.searchsorted(motion.starts, times, side="right") - 1]
+            for motion in plan.motions
+        ],
+        axis=1,
+    )
+    used = np.stack(
+        [
+            np.abs(samples.velocities) / limits.velocity,
+            np.abs(samples.accelerations) / limits.acceleration,
+            np.abs(jerks) / limits.jerk,
+        ]
+    )
+    found: Counter[str] = Counter()
+    for step, at in zip(np.diff(plan.times).tolist(), range(len(times)), strict=True):
+        quantity, joint = np.unravel_index(int(used[:, at].argmax()), used[:, at].shape)
+        bounded = used[quantity, at, joint] >= _BOUNDED
+        group = next(group for part, group in _GROUPS.items() if part in limits.names[joint])
+        found[f"{group} {_QUANTITIES[quantity]}" if bounded else "none"] += step
+    return found
 
 
 def _bound(plan: Plan, limits: MotionLimits) -> float:
