@@ -7,6 +7,7 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
+import pytest
 from thumb_capsules import thumb_gap
 
 from teo_common.arrays import Array
@@ -86,12 +87,18 @@ def test_thumbs_that_would_pass_through_a_finger_go_another_way_and_others_go_st
     assert through >= 4
 
 
-def test_in_a_sentence_no_thumb_is_in_a_finger_at_any_time() -> None:
+@pytest.mark.parametrize(
+    "sentence",
+    [
+        # Between words, in one that changes its handshape, to and from a letter whose thumb lies close.
+        "QUÉ_DICE BUENO VEHÍCULO J-A",
+        # On a way that the arms go round, which is timed anew for that.
+        "SERPIENTE CONTENER MUCHO RENUNCIAR",
+    ],
+)
+def test_in_a_sentence_no_thumb_is_in_a_finger_at_any_time(sentence: str) -> None:
     robot = Robot.load()
-    # Between two words, in a word that changes its handshape, to and from a letter whose thumb lies close.
-    plan = Planner(Lut.open(default_lut_directory()), robot=robot).plan(
-        parse_printed("QUÉ_DICE BUENO VEHÍCULO J-A")
-    )
+    plan = Planner(Lut.open(default_lut_directory()), robot=robot).plan(parse_printed(sentence))
     hands = plan.positions[:, columns("Right")]
     moved = hands[1:][(np.diff(hands, axis=0) != 0.0).any(axis=1)]
     assert min(thumb_gap(robot, hand, "Right") for hand in moved) > -TOUCH - _OFF

@@ -100,9 +100,12 @@ class CollisionAvoidance:
         """A route with its motion, in which thumbs keep out of fingers."""
         if self._thumbs is None:
             return self._timing.timed(route)
-        timed = self._timing.timed(with_clear_thumbs(route, self._thumbs, self._limits))
+        return self._with_thumbs_led(self._timing.timed(with_clear_thumbs(route, self._thumbs, self._limits)))
+
+    def _with_thumbs_led(self, timed: TimedRoute) -> TimedRoute:
+        """A route with its motion, whose hands pass through more shapes where a thumb is in a finger."""
         for _ in range(_THUMB_ROUNDS):
-            led = with_thumbs_led(timed, self._thumbs, self._limits)
+            led = timed.route if self._thumbs is None else with_thumbs_led(timed, self._thumbs, self._limits)
             if led is timed.route:
                 break
             timed = self._timing.timed(led)
@@ -123,11 +126,16 @@ class CollisionAvoidance:
         """
         for _ in range(_DETOURS_PER_TOKEN * (len(timed.route.spans) + 1)):
             if self._is_clear(timed.plan):
-                return timed.plan
+                break
             timed = self._with_worst_avoided(timed)
-        if self._is_clear(timed.plan):
+        if not self._is_clear(timed.plan):
+            raise self._collision(timed)
+        # Arms that go round take longer, and fingers and thumb are elsewhere on their way meanwhile.
+        led = self._with_thumbs_led(timed)
+        if led is timed:
             return timed.plan
-        raise self._collision(timed)
+        led = self._measured(led)
+        return led.plan if self._is_clear(led.plan) else timed.plan
 
     def _with_worst_avoided(self, timed: TimedRoute) -> TimedRoute:
         """Lead the transition with the worst collision around the body."""
