@@ -11,8 +11,8 @@ that is nearest to one of its limits.
 from __future__ import annotations
 
 import dataclasses
-from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -93,8 +93,8 @@ def _figures(
             refused += 1
     seconds = [plan.duration for plan in plans]
     bounds = [_bound(plan, limits) for plan in plans]
-    rooms: Counter[str] = sum((_rooms(plan) for plan in plans), Counter())
-    bounded: Counter[str] = sum((_bounded_by(plan, limits) for plan in plans), Counter())
+    rooms = (part for plan in plans for part in _rooms(plan))
+    bounded = (part for plan in plans for part in _bounded_by(plan, limits))
     return [
         Figure(
             f"{len(plans)} known sentences, {what}",
@@ -109,30 +109,32 @@ def _figures(
     ]
 
 
-def _shares(seconds: Counter[str]) -> str:
+def _shares(parts: Iterable[tuple[str, float]]) -> str:
     """What takes how much of the whole, the most first; what takes less than 1 % is left out."""
-    total = seconds.total()
-    return ", ".join(
-        f"{name} {100.0 * part / total:.0f} %" for name, part in seconds.most_common() if part >= 0.01 * total
-    )
+    seconds: defaultdict[str, float] = defaultdict(float)
+    for name, part in parts:
+        seconds[name] += part
+    total = sum(seconds.values())
+    most_first = sorted(seconds, key=lambda name: seconds[name], reverse=True)
+    shares = {name: seconds[name] / total for name in most_first}
+    return ", ".join(f"{name} {100.0 * share:.0f} %" for name, share in shares.items() if share >= 0.01)
 
 
-def _rooms(plan: Plan) -> Counter[str]:
-    """Seconds of a plan in each of its rooms."""
+def _rooms(plan: Plan) -> Iterator[tuple[str, float]]:
+    """Parts of a plan, each with its room and seconds."""
     first, last = plan.timings[0], plan.timings[-1]
-    found = Counter({"raising": first.start, "lowering": plan.duration - last.start - last.duration})
+    yield "raising", first.start
+    yield "lowering", plan.duration - last.start - last.duration
     for timing in plan.timings:
         pause = timing.token.kind is Kind.PAUSE
-        found["spelling" if timing.token.spelled else "pauses" if pause else "signs"] += timing.duration
+        yield "spelling" if timing.token.spelled else "pauses" if pause else "signs", timing.duration
     for one, other in pairwise(plan.timings):
-        way = other.start - one.start - one.duration
         same = one.token.spelled and other.token.spelled and one.token.word_index == other.token.word_index
-        found["spelling" if same else "ways"] += way
-    return found
+        yield "spelling" if same else "ways", other.start - one.start - one.duration
 
 
-def _bounded_by(plan: Plan, limits: MotionLimits) -> Counter[str]:
-    """Seconds of a plan by the joints and the limit that are nearest to each other meanwhile."""
+def _bounded_by(plan: Plan, limits: MotionLimits) -> Iterator[tuple[str, float]]:
+    """Steps of a plan, each with the joints and the limit that are nearest to each other, and its seconds."""
     times: Array = (plan.times[:-1] + plan.times[1:]) / 2.0
     samples = sample_at(plan.motions, times)
     jerks = np.stack(
@@ -149,13 +151,11 @@ def _bounded_by(plan: Plan, limits: MotionLimits) -> Counter[str]:
             np.abs(jerks) / limits.jerk,
         ]
     )
-    found: Counter[str] = Counter()
     for step, at in zip(np.diff(plan.times).tolist(), range(len(times)), strict=True):
         quantity, joint = np.unravel_index(int(used[:, at].argmax()), used[:, at].shape)
-        bounded = used[quantity, at, joint] >= _BOUNDED
         group = next(group for part, group in _GROUPS.items() if part in limits.names[joint])
-        found[f"{group} {_QUANTITIES[quantity]}" if bounded else "none"] += step
-    return found
+        bounded = used[quantity, at, joint] >= _BOUNDED
+        yield f"{group} {_QUANTITIES[quantity]}" if bounded else "none", step
 
 
 def _bound(plan: Plan, limits: MotionLimits) -> float:
