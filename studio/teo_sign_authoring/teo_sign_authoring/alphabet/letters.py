@@ -45,10 +45,9 @@ from teo_signs.sign_schema import Provenance
 
 _FINGERS = ("index", "middle", "ring", "little")
 
-# [rad] Knots follow the recorded motion to this, a third of what is just seen in a palm: the swings in which
-# a movement dies away and the tracker's trembling would cost TEO, at 50 deg/s, more time than the movement.
-# At 2 deg RR takes nearly twice as long and is no farther from R.
-_TOLERANCE = np.radians(5.0)
+# [rad] Knots follow the recorded motion to this, 7 mm at the finger tips of a hand that turns at its wrist:
+# the slight swings in which a movement dies away would cost TEO, at 50 deg/s, more time than the movement.
+_TOLERANCE = np.radians(2.0)
 # [rad] A palm that is farther than this from the person's is worth giving up place and shape for.
 _OUT_OF_REACH = np.radians(20.0)
 # Each shift off the face moves the arm, and with it the hand a little back.
