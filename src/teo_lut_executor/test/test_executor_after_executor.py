@@ -148,6 +148,8 @@ def test_without_room_for_a_journal_all_that_is_said_is_signed_once_and_the_disk
     (folder / f"domain{domain_id}.executor.new").symlink_to("/dev/full")
     graph.robot.tokens.publish(graph.sentence("NOD"))  # while no executor is there
     with next_executor(graph, folder):
+        # What was kept comes by another subscription than what is said now, sooner or later than that.
+        graph.spin_until(lambda: any(status.utterance_id for status in graph.robot.statuses))
         graph.publish(graph.sentence("TURN"))
         graph.publish(graph.sentence("Ω"))
         graph.rest(signed=2)

@@ -65,7 +65,7 @@ class Laboratory:
         """A new shell of a machine, outside the tunnel, with nothing set of the network."""
         host = self.host(name)
         clean = {key: value for key, value in os.environ.items() if not key.startswith(("ROS_", "FASTRTPS_"))}
-        clean["PYTHONPATH"] = f"{ROOT / 'test' / 'support'}:{clean.get('PYTHONPATH', '')}"
+        clean["PYTHONPATH"] = f"{Path(__file__).parent}:{clean.get('PYTHONPATH', '')}"
         return Shell(*host.entered("bash"), environment=clean, home=host.home)
 
     def inside(self, name: str) -> Shell:
