@@ -104,8 +104,10 @@ class CollisionAvoidance:
 
     def _with_thumbs_led(self, timed: TimedRoute) -> TimedRoute:
         """A route with its motion, whose hands pass through more shapes where a thumb is in a finger."""
+        if self._thumbs is None:
+            return timed
         for _ in range(_THUMB_ROUNDS):
-            led = timed.route if self._thumbs is None else with_thumbs_led(timed, self._thumbs, self._limits)
+            led = with_thumbs_led(timed, self._thumbs, self._limits)
             if led is timed.route:
                 break
             timed = self._timing.timed(led)
