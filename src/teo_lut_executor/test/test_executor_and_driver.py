@@ -201,8 +201,9 @@ def test_two_robots_in_namespaces_sign_side_by_side_in_simulated_time_and_stand_
     for name, lab in labs.items():
         assert {status.utterance_id for status in lab.statuses} <= {name, ""}
         assert not lab.of(REFUSED)
-        signing = [status for status in lab.statuses if status.state == SIGNING][-1]
-        begun, ended = (Time.from_msg(status.header.stamp) for status in (signing, lab.statuses[-1]))
+        last = max(index for index, status in enumerate(lab.statuses) if status.state == SIGNING)
+        signing, after = lab.statuses[last : last + 2]
+        begun, ended = (Time.from_msg(status.header.stamp) for status in (signing, after))
         assert (ended - begun).nanoseconds / SECOND == pytest.approx(signing.duration, abs=1.0)
     # NOD turns the neck by -0.05 rad, TURN by 0.1: each robot has moved as it was told, and no further.
     neck = ALL_JOINTS.index("AxialNeck")
