@@ -13,8 +13,6 @@ LANGUAGE ?= ssp
 # VIEW=1: the console's page too, and what it teaches signs with.
 SETUP := $(if $(VIEW),setup-view,setup-run)
 ENV := . ./env.sh &&
-# Tests over DDS that run at a time: they wait as long as they work, so that three keep two cores busy.
-MEETING := 3
 
 .PHONY: help setup setup-run setup-view wheelhouse robots run demo test slow commands lint bench docs
 
@@ -41,7 +39,7 @@ run: $(SETUP) ## start translator, executor and driver, until Ctrl-C; VIEW=1 wit
 
 test: setup ## the tests, without the slow ones: first what keeps no time with others, then what meets them over DDS
 	@$(ENV) python -m pytest -m "not dds and not commands and not slow" --numprocesses 2 --dist loadfile
-	@$(ENV) python -m pytest -m "dds and not commands and not slow" --numprocesses $(MEETING) --dist loadfile
+	@$(ENV) python -m pytest -m "dds and not commands and not slow" --numprocesses 2 --dist loadfile
 
 slow: setup ## the tests that take long
 	@$(ENV) python -m pytest -m "slow and not dds and not commands" --numprocesses 2 --dist worksteal

@@ -157,7 +157,8 @@ def test_what_the_driver_refuses_of_others_ends_no_sentence_and_is_counted(new_l
     lab.create_timer(0.2, lambda: strangers.publish(JointTrajectory(joint_names=["foo"])))
     lab.sign("one", "NOD TURN")
     lab.rest("one")
-    assert {status.code for status in lab.statuses} == {""}
+    assert not lab.of(REFUSED)
+    assert "trajectory_refused" not in {status.code for status in lab.statuses}
 
     def counted() -> int:
         values = [pair for array in told for status in array.status for pair in status.values]
@@ -172,6 +173,20 @@ def test_a_motion_of_its_own_that_the_driver_refuses_is_named(new_lab: NewLab) -
     lab.until(lambda: lab.of(REFUSED) == ["one"])
     assert {status.code for status in lab.statuses} == {"", "trajectory_refused"}
     assert "too_large" in next(status.message for status in lab.statuses if status.code)
+
+
+def test_a_motion_that_the_driver_refuses_with_those_of_others_is_named_at_once(new_lab: NewLab) -> None:
+    lab = new_lab("-p", "max_points:=3")
+    strangers = lab.create_publisher(JointTrajectory, "joint_trajectory", 10)
+
+    def shout(motion: JointTrajectory) -> None:
+        for _ in range(5 if motion.header.frame_id else 0):
+            strangers.publish(JointTrajectory(joint_names=["foo"]))
+
+    lab.create_subscription(JointTrajectory, "joint_trajectory", shout, 10)
+    lab.sign("one", "NOD")
+    lab.until(lambda: lab.of(REFUSED) == ["one"])
+    assert {status.code for status in lab.statuses} == {"", "trajectory_refused"}
 
 
 @pytest.mark.slow

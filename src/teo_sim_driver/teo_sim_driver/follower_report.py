@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, deque
 from dataclasses import dataclass, field
 from enum import StrEnum
 
@@ -31,20 +31,24 @@ class Source(StrEnum):
     ACTION = "action"
 
 
+# Refusals that are kept to be told of [1]: as many as a topic holds of what a sender sends at once.
+_KEPT = 10
+
+
 @dataclass
 class Tally:
     """What has happened since the start; attributes as those of `FollowerReport`."""
 
     accepted: int = 0
     refused: Counter[str] = field(default_factory=Counter)
-    last_refusal: TrajectoryError | None = None
+    refusals: deque[TrajectoryError] = field(default_factory=lambda: deque(maxlen=_KEPT))
     limited_steps: int = 0
     limited_joints: tuple[str, ...] = ()
 
     def refuse(self, refusal: TrajectoryError) -> None:
         """Enter a refusal."""
         self.refused[refusal.code] += 1
-        self.last_refusal = refusal
+        self.refusals.append(refusal)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,12 +72,18 @@ class FollowerReport:
     accepted: int
     refused: dict[str, int]
     """Refusal code to number of messages."""
-    last_refusal: TrajectoryError | None
+    refusals: tuple[TrajectoryError, ...]
+    """The last of them, the newest last."""
     limited_steps: int
     """Steps that the guard changed. Anything but 0 is a fault of this driver."""
     limited_joints: tuple[str, ...]
     """Joints that the guard held back last."""
     clock_jumps: int
+
+    @property
+    def last_refusal(self) -> TrajectoryError | None:
+        """The newest; None before the first."""
+        return self.refusals[-1] if self.refusals else None
 
 
 # Modes in which nothing is taken, the first that holds goes first; with the refusal's code and what to do.

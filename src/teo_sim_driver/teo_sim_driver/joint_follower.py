@@ -273,7 +273,7 @@ class JointFollower:
             reason=self._gate.reason(mode),
             accepted=self._tally.accepted,
             refused=dict(self._tally.refused),
-            last_refusal=self._tally.last_refusal,
+            refusals=tuple(self._tally.refusals),
             limited_steps=self._tally.limited_steps,
             limited_joints=self._tally.limited_joints,
             clock_jumps=self._clock.jumps,

@@ -46,7 +46,7 @@ def test_a_bad_trajectory_is_refused_with_its_reason_and_a_good_one_then_reaches
     bench.commands.publish(bad)
     bench.until(lambda: bench.diagnostics and bench.said("last refusal code") == "not_finite")
     assert "FrontalLeftElbow" in bench.said("last refusal")
-    bench.until(lambda: bench.driver_states[-1].refused_frame_id == "the bad one")
+    bench.until(lambda: list(bench.driver_states[-1].refused_frame_ids) == ["the bad one"])
     assert bench.diagnostics[-1].status[0].level == b"\x01"
 
     good = one_way(duration=2.0, angle=-0.2)

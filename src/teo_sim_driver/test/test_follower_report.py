@@ -27,7 +27,7 @@ def test_a_new_refusal_is_a_warning_with_its_reason_and_an_old_one_is_not(report
     refused = replace(
         report,
         refused={"not_finite": 2},
-        last_refusal=TrajectoryError(Refusal.NOT_FINITE, "point 3: expected a number"),
+        refusals=(TrajectoryError(Refusal.NOT_FINITE, "point 3: expected a number"),),
     )
     health = judge(refused, before=report)
     assert health.level is Level.WARN

@@ -128,9 +128,13 @@ class DriverLink:
         before, self._refused = self._refused, message.refused
         self._on_report(to_report(message))
         new = 0 if before is None else max(message.refused - before, 0)
-        sender, _, number = message.refused_frame_id.rpartition(" ")
-        ours = new > 0 and sender == self._name
-        # Of several at once the driver names the last: one of ours among the others shows by the robot.
-        self.others_refused += new - ours
-        if ours and self._by_topic:  # of a goal its result tells
-            self._on_refused(int(number), f"[{message.refusal_code}] {message.message}")
+        self.others_refused += new
+        # The driver names the last ones: one of ours among more of others shows by the robot.
+        named = zip(message.refused_frame_ids, message.refusals, strict=False)
+        for frame_id, refusal in list(named)[-new:] if new else ():
+            sender, _, number = frame_id.rpartition(" ")
+            if sender != self._name:
+                continue
+            self.others_refused -= 1
+            if self._by_topic:  # of a goal its result tells
+                self._on_refused(int(number), refusal)

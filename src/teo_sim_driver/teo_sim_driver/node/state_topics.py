@@ -136,8 +136,9 @@ class DriverStatePublisher:
             path_time=report.path_time,
             path_duration=report.path_duration,
             refused=refused,
-            refused_frame_id=last.frame_id if last else "",
             refusal_code=last.code if last else "",
+            refused_frame_ids=[refusal.frame_id for refusal in report.refusals],
+            refusals=[f"[{refusal.code}] {refusal.sentence}" for refusal in report.refusals],
             message=report.reason or (last.sentence if last else ""),
         )
         message.header.stamp = stamp
