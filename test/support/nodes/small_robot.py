@@ -30,8 +30,9 @@ from teo_names import COMMANDED_JOINTS, HOME
 from teo_signs.sign_file import save_sign
 from teo_signs.tokens import parse_printed
 
-RATE = 100.0  # joint states a second [Hz]
-REPORT_STEPS = 10  # between what it says of itself while it moves, as the driver's
+# Joint states a second [Hz]: half of those of the driver, as executor and robot share one thread here.
+RATE = 50.0
+REPORT_STEPS = 5  # between what it says of itself while it moves, as the driver's
 # Short signs near rest, so that a sentence takes about a second.
 QUICK = ("NOD", "TURN", "LOOK")
 NECK = ("AxialNeck", "FrontalNeck")
