@@ -13,13 +13,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
 
 import numpy as np
 
 from teo_common.arrays import Array
 from teo_description.hand_geometry import hand_table
 from teo_description.robot import Robot
-from teo_motion.collision.collision_avoidance import CollisionAvoidance
+from teo_motion.collision.collision_avoidance import CollisionAvoidance, SelfCollision
 from teo_motion.collision.motion_clearance import RESOLUTION, MotionClearance
 from teo_motion.collision.opening import opening
 from teo_motion.head_overlay import HeadOverlay
@@ -194,19 +195,18 @@ class Planner:
             gestures = head_gestures([item.token for item in signed], form, self._grammar)
             return self._head.overlaid(plan, signed, gestures)
 
-        # Signs in other postures and sizes may touch on their way where their entries keep apart.
-        tried: list[Sequence[SignedToken]] = []
-        for signed in (smaller, chosen, captured):
-            if signed in tried:
-                continue
-            tried.append(signed)
+        # Signs in other postures and sizes may touch on their way where their entries keep apart: those beside
+        # the place go back to them.
+        ways = [_distinct(*forms) for forms in zip(captured, chosen, smaller, strict=True)]
+        while True:
             try:
-                return planned(signed)
-            except PlanError as error:
-                if error.code != "self_collision":
+                return planned([forms[-1] for forms in ways])
+            except SelfCollision as collision:
+                beside = [forms for forms in ways[max(collision.token - 1, 0) :][:2] if len(forms) > 1]
+                if not beside:
                     raise
-                refused = error
-        raise refused
+                for forms in beside:
+                    forms.pop()
 
     def plan_opening(
         self, tokens: Sequence[Token], start: State, *, lasting: float
@@ -287,6 +287,11 @@ class Planner:
             velocity=np.clip(start.velocity, -bounds.velocity, bounds.velocity),
             acceleration=np.clip(start.acceleration, -bounds.acceleration, bounds.acceleration),
         )
+
+
+def _distinct(*forms: SignedToken) -> list[SignedToken]:
+    """The forms of a token, each that is the one before it left out."""
+    return [form for before, form in pairwise((None, *forms)) if form is not before]
 
 
 def sign_motion(planner: Planner, sign: Sign, *, period: float = DEFAULT_PERIOD) -> SignMotion:

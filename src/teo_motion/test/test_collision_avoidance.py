@@ -167,3 +167,13 @@ def test_a_way_on_which_a_hand_passes_through_another_shape_is_led_around_as_wel
     # A thumb passes through another shape half way, where one hand would be in the other.
     plan = Planner(dict(lut), robot=robot).plan([Token(gloss="SISTEMA"), Token(gloss="SALSA")])
     assert MotionClearance(robot).nearest(plan.samples).distance >= 0.0
+
+
+def test_where_signs_would_touch_on_the_way_those_beside_it_alone_become_larger(robot: Robot, lut: Lut) -> None:
+    """Made smaller, two of the first three find no way from one to the other; the last three stay small."""
+    planner = Planner(lut, robot=robot)
+    text = ("MI", "ADAPTACIÓN", "ATENCIÓN", "ECHAR_DE_MENOS", "GRAVE", "NEGOCIAR")
+    together = planner.plan([Token(gloss=gloss) for gloss in text]).timings
+    alone = [planner.plan([Token(gloss=gloss)]).timings[0].duration for gloss in text]
+    for timing, duration in list(zip(together, alone, strict=True))[3:]:
+        assert timing.duration == pytest.approx(duration, abs=0.2)

@@ -31,17 +31,16 @@ _THUMB_ROUNDS = 3
 _LINE_SAMPLES = 9
 
 
-class _CollisionError(Exception):
-    """The robot touches itself where no detour helps.
+class SelfCollision(PlanError):
+    """The robot touches itself where no detour helps ("self_collision").
 
     Attributes:
-        error: What to say if nothing else helps either.
         token: Index of the token that is signed there, or is signed next; their number after the last.
     """
 
-    def __init__(self, error: PlanError, token: int) -> None:
-        super().__init__(str(error))
-        self.error = error
+    def __init__(self, message: str, token: int) -> None:
+        """Say where, and how near what comes."""
+        super().__init__("self_collision", message)
         self.token = token
 
 
@@ -80,7 +79,8 @@ class CollisionAvoidance:
         """The motion of a composition, led around the robot's body where it would touch it.
 
         Raises:
-            PlanError: "self_collision" if no such motion is found; see also `SentenceTiming.timed`.
+            SelfCollision: No such motion is found.
+            PlanError: See `SentenceTiming.timed`.
         """
         times = self._timing.estimate(composition)
         cleared: set[tuple[str, int]] = set()
@@ -90,10 +90,10 @@ class CollisionAvoidance:
             )
             try:
                 return self._led_around(self._measured(self._with_clear_thumbs(route)))
-            except _CollisionError as collision:
+            except SelfCollision as collision:
                 more = _idle_arms(composition, collision) - cleared
                 if not more:
-                    raise collision.error from None
+                    raise
                 cleared |= more
 
     def _with_clear_thumbs(self, route: Route) -> TimedRoute:
@@ -124,7 +124,7 @@ class CollisionAvoidance:
         """The motion of a route, its transitions led around the body.
 
         Raises:
-            _CollisionError: It still touches after `_DETOURS_PER_TOKEN` detours a sign.
+            SelfCollision: It still touches after `_DETOURS_PER_TOKEN` detours a sign.
         """
         for _ in range(_DETOURS_PER_TOKEN * (len(timed.route.spans) + 1)):
             if self._is_clear(timed.plan):
@@ -154,7 +154,9 @@ class CollisionAvoidance:
                 detours(first, middle, second, self._limits) if route.token_at(step) is None else [(first,)]
             )
             half_way = (first_step + last_step - 1) // 2
-            for postures in self._free_first(ways, first, second):
+            for postures in ways:
+                if self._touches([first, *postures, second]):  # which is known before its motion is timed
+                    continue
                 other = route
                 for posture in reversed(postures):
                     other = with_detour(other, half_way, posture, self._arms)
@@ -175,7 +177,7 @@ class CollisionAvoidance:
                 last += 1
         return first, last
 
-    def _collision(self, timed: TimedRoute) -> _CollisionError:
+    def _collision(self, timed: TimedRoute) -> SelfCollision:
         """What touches, and where: in a sign if one of its postures does, else between two waypoints."""
         route, plan, times = timed
         near, step = plan.nearest, _nearest_step(timed)
@@ -186,28 +188,15 @@ class CollisionAvoidance:
             where = f"on the way from {route.name_at(ends[0])} to {route.name_at(ends[1])}"
         else:
             where = f"in {route.name_at(guilty)}"
-        error = PlanError(
-            "self_collision",
+        message = (
             f"{where}, at {near.time:.2f} s: expected {near.first} and {near.second} to stay "
-            f"{self._least_clearance * 1000:.0f} mm apart, got {near.distance * 1000:.1f} mm",
+            f"{self._least_clearance * 1000:.0f} mm apart, got {near.distance * 1000:.1f} mm"
         )
         waypoint = step + 1 if guilty is None else guilty
         token = next(
             (index for index, span in enumerate(route.spans) if waypoint <= span.last), len(route.spans)
         )
-        return _CollisionError(error, token)
-
-    def _free_first(
-        self, paths: Iterable[Sequence[Array]], first: Array, second: Array
-    ) -> Iterator[Sequence[Array]]:
-        """Detours, those first that are free along straight lines, which is known before any is timed."""
-        touching = []
-        for path in paths:
-            if self._touches([first, *path, second]):
-                touching.append(path)
-            else:
-                yield path
-        yield from touching
+        return SelfCollision(message, token)
 
     def _touches(self, postures: Sequence[Array]) -> bool:
         """Whether the robot would touch itself along straight lines from posture to posture."""
@@ -235,7 +224,7 @@ def _nearest_step(timed: TimedRoute) -> int:
     return min(after - 1, len(timed.times) - 2)
 
 
-def _idle_arms(composition: Composition, collision: _CollisionError) -> set[tuple[str, int]]:
+def _idle_arms(composition: Composition, collision: SelfCollision) -> set[tuple[str, int]]:
     """Arms that a token does not use, each with the waypoint at which it begins."""
     if collision.token >= len(composition.spans):
         return set()
