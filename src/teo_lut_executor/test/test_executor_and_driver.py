@@ -107,8 +107,8 @@ def new_lab(domain_id: int, table_directory: Path, make_sign: Callable[..., Any]
     for number, gloss in enumerate(("NOD", "TURN")):
         knots = [[0.1 * number, 0.05], [0.1 * number - 0.05, 0.0]]
         save_sign(table_directory, make_sign(gloss, knots, [0.0, 0.2], joints=("AxialNeck", "FrontalNeck")))
-    # Half the driver's usual rate: a lab's three nodes share one thread, and two such labs would need more time
-    # than there is.
+    # Half the driver's usual rate: a lab's three nodes share one thread, and two such labs would need more
+    # time than there is.
     common = ("-p", f"lut_directory:={table_directory}", "-p", "journal:=''", "-p", "update_rate:=50")
     labs: list[Lab] = []
 

@@ -20,7 +20,7 @@ import numpy as np
 from teo_common.arrays import Array
 from teo_description.hand_geometry import hand_table
 from teo_description.robot import Robot
-from teo_motion.collision.collision_avoidance import CollisionAvoidance, SelfCollision
+from teo_motion.collision.collision_avoidance import CollisionAvoidance, SelfCollisionError
 from teo_motion.collision.motion_clearance import RESOLUTION, MotionClearance
 from teo_motion.collision.opening import opening
 from teo_motion.head_overlay import HeadOverlay
@@ -195,13 +195,13 @@ class Planner:
             gestures = head_gestures([item.token for item in signed], form, self._grammar)
             return self._head.overlaid(plan, signed, gestures)
 
-        # Signs in other postures and sizes may touch on their way where their entries keep apart: those beside
-        # the place go back to them.
+        # Signs in other postures and sizes may touch on their way where their entries keep apart: those
+        # beside the place go back to them.
         ways = [_distinct(*forms) for forms in zip(captured, chosen, smaller, strict=True)]
         while True:
             try:
                 return planned([forms[-1] for forms in ways])
-            except SelfCollision as collision:
+            except SelfCollisionError as collision:
                 beside = [forms for forms in ways[max(collision.token - 1, 0) :][:2] if len(forms) > 1]
                 if not beside:
                     raise
@@ -290,8 +290,8 @@ class Planner:
 
 
 def _distinct(*forms: SignedToken) -> list[SignedToken]:
-    """The forms of a token, each that is the one before it left out."""
-    return [form for before, form in pairwise((None, *forms)) if form is not before]
+    """The forms of a token, each but those that are the one before them."""
+    return [forms[0], *(form for before, form in pairwise(forms) if form is not before)]
 
 
 def sign_motion(planner: Planner, sign: Sign, *, period: float = DEFAULT_PERIOD) -> SignMotion:

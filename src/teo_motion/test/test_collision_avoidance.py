@@ -169,7 +169,7 @@ def test_a_way_on_which_a_hand_passes_through_another_shape_is_led_around_as_wel
     assert MotionClearance(robot).nearest(plan.samples).distance >= 0.0
 
 
-def test_where_signs_would_touch_on_the_way_those_beside_it_alone_become_larger(robot: Robot, lut: Lut) -> None:
+def test_where_no_way_leads_between_two_signs_others_keep_their_size(robot: Robot, lut: Lut) -> None:
     """Made smaller, two of the first three find no way from one to the other; the last three stay small."""
     planner = Planner(lut, robot=robot)
     text = ("MI", "ADAPTACIÓN", "ATENCIÓN", "ECHAR_DE_MENOS", "GRAVE", "NEGOCIAR")

@@ -27,13 +27,15 @@ def random_tokens(
         table: What is drawn from.
         most: Signs of the longest sentence.
         scales: One is drawn for each sign: duration over the usual one [1].
-        words: Words to one of which each sign is said to belong; None: each is a word of its own.
+        words: Words to one of which each sign but a number belongs; None: each is a word of its own.
     """
     glosses, tokens = sorted(table), []
     for index in range(dice.integers(1, most + 1)):
         sign = table[str(dice.choice(glosses))]
         scale = float(dice.choice(scales))
-        word = index if words is None else int(dice.integers(words))
         kind = Kind[sign.kind.upper()]
+        # A number is a word of its own: two in one word are read as the number that they make together.
+        own = words is None or kind == Kind.NUMBER
+        word = most + index if own else int(dice.integers(words or 1))
         tokens.append(Token(gloss=sign.gloss, kind=kind, duration_scale=scale, word_index=word))
     return tokens

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -31,7 +31,7 @@ _THUMB_ROUNDS = 3
 _LINE_SAMPLES = 9
 
 
-class SelfCollision(PlanError):
+class SelfCollisionError(PlanError):
     """The robot touches itself where no detour helps ("self_collision").
 
     Attributes:
@@ -79,7 +79,7 @@ class CollisionAvoidance:
         """The motion of a composition, led around the robot's body where it would touch it.
 
         Raises:
-            SelfCollision: No such motion is found.
+            SelfCollisionError: No such motion is found.
             PlanError: See `SentenceTiming.timed`.
         """
         times = self._timing.estimate(composition)
@@ -90,7 +90,7 @@ class CollisionAvoidance:
             )
             try:
                 return self._led_around(self._measured(self._with_clear_thumbs(route)))
-            except SelfCollision as collision:
+            except SelfCollisionError as collision:
                 more = _idle_arms(composition, collision) - cleared
                 if not more:
                     raise
@@ -124,7 +124,7 @@ class CollisionAvoidance:
         """The motion of a route, its transitions led around the body.
 
         Raises:
-            SelfCollision: It still touches after `_DETOURS_PER_TOKEN` detours a sign.
+            SelfCollisionError: It still touches after `_DETOURS_PER_TOKEN` detours a sign.
         """
         for _ in range(_DETOURS_PER_TOKEN * (len(timed.route.spans) + 1)):
             if self._is_clear(timed.plan):
@@ -177,7 +177,7 @@ class CollisionAvoidance:
                 last += 1
         return first, last
 
-    def _collision(self, timed: TimedRoute) -> SelfCollision:
+    def _collision(self, timed: TimedRoute) -> SelfCollisionError:
         """What touches, and where: in a sign if one of its postures does, else between two waypoints."""
         route, plan, times = timed
         near, step = plan.nearest, _nearest_step(timed)
@@ -196,7 +196,7 @@ class CollisionAvoidance:
         token = next(
             (index for index, span in enumerate(route.spans) if waypoint <= span.last), len(route.spans)
         )
-        return SelfCollision(message, token)
+        return SelfCollisionError(message, token)
 
     def _touches(self, postures: Sequence[Array]) -> bool:
         """Whether the robot would touch itself along straight lines from posture to posture."""
@@ -224,7 +224,7 @@ def _nearest_step(timed: TimedRoute) -> int:
     return min(after - 1, len(timed.times) - 2)
 
 
-def _idle_arms(composition: Composition, collision: SelfCollision) -> set[tuple[str, int]]:
+def _idle_arms(composition: Composition, collision: SelfCollisionError) -> set[tuple[str, int]]:
     """Arms that a token does not use, each with the waypoint at which it begins."""
     if collision.token >= len(composition.spans):
         return set()
