@@ -27,7 +27,9 @@ def main(container_format: str, path: str) -> None:
     import av  # here: a process that only imports this module needs no FFmpeg
 
     try:
-        with av.open(path, format=container_format, options={"protocol_whitelist": "file"}) as film:
+        # Names beside the images are of no account, and in any encoding.
+        only = {"protocol_whitelist": "file"}
+        with av.open(path, format=container_format, options=only, metadata_errors="replace") as film:
             figures = _figures(film)
     except (av.error.FFmpegError, ValueError, OSError) as error:
         _refuse(f"expected a film that can be read, got: {error}")
@@ -35,9 +37,9 @@ def main(container_format: str, path: str) -> None:
 
 
 def _figures(film: Any) -> dict[str, float]:
-    if len(film.streams.video) != 1:
-        _refuse(f"expected one stream of images, got {len(film.streams.video)}")
-    stream = film.streams.video[0]
+    stream = film.streams.best("video")  # a cover is a stream of images too
+    if stream is None:
+        _refuse("expected a stream of images, got none")
     width, height = stream.codec_context.width, stream.codec_context.height
     if min(width, height) < _LEAST_WIDTH or max(width, height) > _MOST_SIDE:
         _refuse(f"expected images of {_LEAST_WIDTH} to {_MOST_SIDE} pixels a side, got {width}x{height}")

@@ -29,6 +29,9 @@ VIDEO_SUFFIXES = (".mp4", ".mov", ".webm", ".m4v", ".mkv", ".avi")
 LONGEST = 240.0
 # [Hz] What is faster is thinned to this: the fastest shakes of hands have 5 to 7 Hz.
 FASTEST = 30.0
+# Titles and names beside the images say nothing of the sign, and telephones write them in any encoding: QuickTime's
+# Spanish names its handlers in Mac Roman.
+_METADATA_ERRORS = "replace"
 # [px] Longer sides are scaled down to this: a hand then still has 100 pixels where a person fills the height.
 _LONGEST_SIDE = 1280
 # Share of an image's period by which it may come early and still count.
@@ -57,11 +60,13 @@ def count_images(path: Path) -> int:
     import av
 
     try:
-        with av.open(str(path)) as container:
-            stream = container.streams.video[0]
+        with av.open(str(path), metadata_errors=_METADATA_ERRORS) as container:
+            stream = container.streams.best("video")
+            if stream is None:
+                return 0
             length = float(container.duration or 0) / av.time_base
             rate = min(float(stream.average_rate or FASTEST), FASTEST)
-    except (av.FFmpegError, IndexError, OSError):
+    except (av.FFmpegError, OSError):
         return 0
     return int(length * rate)
 
@@ -75,12 +80,12 @@ def video_images(path: Path) -> Iterator[VideoImage]:
     import av  # loads for half a second what only videos need
 
     try:
-        with av.open(str(path)) as container:
-            if not container.streams.video:
+        with av.open(str(path), metadata_errors=_METADATA_ERRORS) as container:
+            stream = container.streams.best("video")  # a cover is a stream of images too
+            if stream is None:
                 raise LutError(
                     "unreadable_video", f"{path.name}: expected a video, got a file without images"
                 )
-            stream = container.streams.video[0]
             stream.thread_type = "AUTO"
             begins, last = None, -np.inf
             for frame in container.decode(stream):

@@ -11,11 +11,12 @@ import av
 import cv2
 import numpy as np
 import pytest
+from av.stream import Disposition
 
 from teo_common.arrays import Array
 from teo_sign_capture.recordings.keypoint_search import evenly
 from teo_sign_capture.recordings.pose_file import pose_file, read_pose_file
-from teo_sign_capture.recordings.video import FASTEST, film_webcam, is_video, video_images
+from teo_sign_capture.recordings.video import FASTEST, count_images, film_webcam, is_video, video_images
 from teo_signs.errors import LutError
 
 WIDTH, HEIGHT = 96, 64
@@ -65,6 +66,34 @@ def test_a_phone_held_upright_gives_upright_images(tmp_path: Path) -> None:
     assert ours.shape == (WIDTH, HEIGHT, 3) == shown.shape
     assert np.abs(ours.astype(int) - shown[..., ::-1].astype(int)).max() < 30
     assert ours[:, -5:].mean() != pytest.approx(ours[:, :5].mean(), abs=50.0)
+
+
+def test_a_film_whose_names_are_in_another_encoding_is_read(tmp_path: Path) -> None:
+    path = film(tmp_path / "iphone.mov", [0.0, 0.04, 0.08])
+    content = path.read_bytes()
+    assert b"VideoHandler" in content  # FFmpeg's name; an iPhone in Spanish says "Gestor de contenido de vídeo Apple"
+    path.write_bytes(content.replace(b"VideoHandler", "Gestor vídeo".encode("mac_roman")))
+    assert count_images(path) > 0
+    assert len(list(video_images(path))) == 3
+
+
+def test_a_cover_is_not_taken_for_the_film(tmp_path: Path) -> None:
+    made = film(tmp_path / "film.mp4", [index / 25.0 for index in range(10)])
+    path = tmp_path / "covered.mkv"
+    with av.open(str(made)) as source, av.open(str(path), "w") as out:
+        cover = out.add_stream("mjpeg", rate=1)
+        cover.width, cover.height, cover.pix_fmt = 16, 16, "yuvj420p"
+        moving = out.add_stream_from_template(source.streams.video[0])
+        cover.disposition = Disposition.attached_pic
+        blank = av.VideoFrame.from_ndarray(np.zeros((16, 16, 3), np.uint8), format="rgb24")
+        out.mux(cover.encode(blank))
+        for packet in source.demux(video=0):
+            if packet.pts is not None:
+                packet.stream = moving
+                out.mux(packet)
+    images = list(video_images(path))
+    assert len(images) == 10
+    assert images[0].image.shape == (HEIGHT, WIDTH, 3)
 
 
 def test_what_is_no_video_is_refused_with_a_reason(tmp_path: Path) -> None:
