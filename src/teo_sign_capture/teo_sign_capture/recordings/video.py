@@ -29,8 +29,8 @@ VIDEO_SUFFIXES = (".mp4", ".mov", ".webm", ".m4v", ".mkv", ".avi")
 LONGEST = 240.0
 # [Hz] What is faster is thinned to this: the fastest shakes of hands have 5 to 7 Hz.
 FASTEST = 30.0
-# Titles and names beside the images say nothing of the sign, and telephones write them in any encoding: QuickTime's
-# Spanish names its handlers in Mac Roman.
+# Titles and names beside the images say nothing of the sign, and telephones write them in any encoding:
+# QuickTime's Spanish names its handlers in Mac Roman.
 _METADATA_ERRORS = "replace"
 # [px] Longer sides are scaled down to this: a hand then still has 100 pixels where a person fills the height.
 _LONGEST_SIDE = 1280

@@ -71,7 +71,7 @@ def test_a_phone_held_upright_gives_upright_images(tmp_path: Path) -> None:
 def test_a_film_whose_names_are_in_another_encoding_is_read(tmp_path: Path) -> None:
     path = film(tmp_path / "iphone.mov", [0.0, 0.04, 0.08])
     content = path.read_bytes()
-    assert b"VideoHandler" in content  # FFmpeg's name; an iPhone in Spanish says "Gestor de contenido de vídeo Apple"
+    assert b"VideoHandler" in content  # as FFmpeg names it; an iPhone: "Gestor de contenido de vídeo Apple"
     path.write_bytes(content.replace(b"VideoHandler", "Gestor vídeo".encode("mac_roman")))
     assert count_images(path) > 0
     assert len(list(video_images(path))) == 3
