@@ -29,6 +29,8 @@ _MOSTLY, _STILL = 0.5, 0.08
 _TRIMMED = 0.25
 # Share of a hand's keypoints that must be seen for its shape to be known.
 _SEEN = 0.5
+# [Hz] Frames a second below which signing cannot be read (ITU-T Series H, Supplement 1, 1999), nor captured.
+_LEAST_RATE = 12.0
 # [s] Rounding of sums of times and of stamps; frames are a hundred times as far apart.
 _ROUNDING = 1e-4
 _HANDS = {"right": ("right_hand",), "left": ("left_hand",), "both": ("right_hand", "left_hand")}
@@ -82,7 +84,7 @@ def capture_take(
         handedness: Hands that make the sign; those that leave rest without.
 
     Raises:
-        LutError: "outside_recording", "no_motion", "several_signs", "too_long", "hand_lost" or
+        LutError: "outside_recording", "no_motion", "several_signs", "too_long", "few_frames", "hand_lost" or
             what `signer_motion` and `retarget_motion` raise.
     """
     cut = cut or Cut()
@@ -94,6 +96,7 @@ def capture_take(
         start=None if cut.start is None else cut.start - offset,
         end=None if cut.end is None else cut.end - offset,
     )
+    _check_rate(raw, span)
     handedness = handedness or _without_unseen(smoothed.track, span)
     span = _while_seen(smoothed.track, replace(span, handedness=handedness))
     gaps = tuple(
@@ -181,6 +184,17 @@ def _moved(span: SignSpan, offset: float) -> SignSpan:
         returns=span.returns + offset,
         pauses=tuple(pause + offset for pause in span.pauses),
     )
+
+
+def _check_rate(raw: SkeletonTrack, span: SignSpan) -> None:
+    """Refuse a stroke of so few frames that anything may have happened between them."""
+    rate = (np.count_nonzero(_stroke(raw, span)) - 1) / span.duration
+    if rate < _LEAST_RATE * (1.0 - _ROUNDING):
+        raise LutError(
+            "few_frames",
+            f"{raw.source}: expected {_LEAST_RATE:g} frames a second or more in the sign, got {rate:.1f}: "
+            "record it at a higher rate, 25 or 30 a second",
+        )
 
 
 def _check_seen(stroke: SkeletonTrack, handedness: Handedness, start: float) -> None:

@@ -64,6 +64,13 @@ def test_a_cut_outside_the_recording_is_refused(robot: Robot, cut: Cut) -> None:
     assert error.value.code == "outside_recording"
 
 
+@pytest.mark.parametrize("rate", [2.0, 5.0, 10.0])
+def test_too_few_frames_are_refused_with_how_many_there_are(robot: Robot, rate: float) -> None:
+    with pytest.raises(LutError, match=f"12 frames a second or more in the sign, got {rate:.0f}") as error:
+        capture_take(robot, signing(rate=rate))
+    assert error.value.code == "few_frames"
+
+
 def test_a_hand_that_is_held_up_signs_in_a_part_of_the_recording_too(robot: Robot) -> None:
     """Nothing of the part tells a hand that is held up from one at rest; what is around it does."""
     times = np.arange(0.0, 3.2, 1.0 / 30.0)
