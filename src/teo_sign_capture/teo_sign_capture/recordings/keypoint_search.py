@@ -13,7 +13,7 @@ import os
 import sys
 import tempfile
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from multiprocessing import current_process, get_context
 from multiprocessing.connection import Connection
@@ -152,9 +152,12 @@ _LONGEST_GAP = 2.5
 # Share of the time between two images within which a moment is that of the nearer one.
 _AT_IT = 0.05
 _POINTS = BODY + 2 * HAND
+# Who is farther away in the next image is somebody else, in sizes of a person [1]: raised arms move the
+# middle of a body by a fifth, and whoever stands beside is half a size away at least.
+_FARTHEST = 0.5
 
 
-def find_points(video: Path, out: Path, on_progress: Progress | None = None) -> None:
+def find_points(video: Path, out: Path, on_progress: Progress | None = None) -> tuple[str, ...]:
     """Find the person in a video and write a `.pose` file, in a process of its own.
 
     The file is one as other programs write and read them (BODY_25 and hands of 21 points, in OpenPose's
@@ -165,12 +168,15 @@ def find_points(video: Path, out: Path, on_progress: Progress | None = None) -> 
         out: File to write; its folder exists.
         on_progress: Told of the number of images read and about that of all.
 
+    Returns:
+        That there are several people, in a sentence, if there are.
+
     Raises:
         LutError: What `video_images` raises, "too_short" for fewer than two images, "no_person" if nobody is
             seen in any, "not_retrieved" where the process died.
         OSError: `out` cannot be written.
     """
-    _work_apart(_find_points, video, out, on_progress)
+    return _work_apart(_find_points, video, out, on_progress)
 
 
 def _find_points(video: Path, out: Path, on_progress: Progress | None) -> tuple[str, ...]:
@@ -180,14 +186,17 @@ def _find_points(video: Path, out: Path, on_progress: Progress | None) -> tuple[
 
     times: list[float] = []
     found: list[Array] = []
-    size = (0, 0)
+    size, several = (0, 0), 0
+    who: Person2D | None = None
     total = count_images(video)
     try:
         detector = make_detector("mediapipe")
         try:
             for time, image, people in _detected(detector, video_images(video)):
                 times.append(time)
-                found.append(_points(people[0]) if people else np.zeros((_POINTS, 4)))
+                person = _followed(people, who)
+                found.append(_points(person) if person else np.zeros((_POINTS, 4)))
+                who, several = person or who, several + (len(people) > 1)
                 size = (image.shape[1], image.shape[0])
                 if on_progress is not None:
                     on_progress(len(times), max(total, len(times)))
@@ -205,7 +214,35 @@ def _find_points(video: Path, out: Path, on_progress: Progress | None) -> tuple[
             "arms in the picture?",
         )
     write_atomically(out, pose_file(*evenly(np.array(times), points), size))
-    return ()
+    if not several:
+        return ()
+    return (
+        f"expected one person, got several in {several} of {len(times)} images: the one who is nearest at "
+        "first is followed; if that is not the signer, film the signer alone",
+    )
+
+
+def _followed(people: Sequence[Person2D], before: Person2D | None) -> Person2D | None:
+    """Of the people of an image, the nearest first, the one who was followed before; None if nobody is."""
+    if before is None or not len(before.body):
+        return people[0] if people else None
+    middle, size = _place(before)
+
+    def away(person: Person2D) -> float:
+        """How far off that person would have moved, in their own sizes [1]."""
+        there, now = _place(person)
+        return float(np.linalg.norm(there - middle)) / max(size, now, 1.0)
+
+    nearest = min(people, key=away, default=None)
+    return None if nearest is None or away(nearest) > _FARTHEST else nearest
+
+
+def _place(person: Person2D) -> tuple[Array, float]:
+    """The middle of a person's keypoints of the body that are seen, and the diagonal around them [px]."""
+    seen = person.body[person.body[:, 2] > 0.0, :2] if len(person.body) else np.zeros((0, 2))
+    if not len(seen):
+        return np.zeros(2), 0.0
+    return seen.mean(axis=0), float(np.linalg.norm(np.ptp(seen, axis=0)))
 
 
 def _detected(

@@ -253,12 +253,12 @@ def _fill_cache(recording: Recording, out: Path, on_progress: Progress | None) -
         with tempfile.TemporaryDirectory(dir=out.parent, prefix=".") as folder:
             made = Path(folder) / f"found{out.suffix}"
             if recording.is_flat:
-                find_points(recording.path, made, on_progress)
+                complaints = find_points(recording.path, made, on_progress)
             else:
                 complaints = find_skeletons(recording.path, made, on_progress, slop=recording.slop)
-                if complaints:  # what is left of a recording that was cut off is worth a look
-                    _warnings_of(made).write_text("\n".join(complaints), "utf-8")
-                    _warnings_of(made).replace(_warnings_of(out))
+            if complaints:  # what is left of a recording that was cut off is worth a look
+                _warnings_of(made).write_text("\n".join(complaints), "utf-8")
+                _warnings_of(made).replace(_warnings_of(out))
             made.replace(out)
     except OSError as error:
         raise LutError(
