@@ -14,7 +14,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from rosbags.highlevel import AnyReader
 
 from teo_sign_capture.recordings.keypoint_search import Progress, find_points, find_skeletons
 from teo_sign_capture.recordings.pose_file import read_pose_file
@@ -22,7 +21,9 @@ from teo_sign_capture.recordings.skeleton_bag import TRUTH, TYPE, is_rendered, r
 from teo_sign_capture.recordings.video import VIDEO_SUFFIXES, is_video
 from teo_sign_capture.tracks.skeleton_track import FACE, Keypoints, SkeletonTrack, in_body_axes
 from teo_signs.errors import LutError
+from teo_skeleton_retriever.bags.bag_reader import Bag
 from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.person_layout import BODY as PERSON_BODY
 from teo_skeleton_retriever.layouts.person_layout import LEFT_HAND, RIGHT_HAND
 from teo_skeleton_retriever.lifting.clip import PoseClip
@@ -235,12 +236,10 @@ def _warnings_of(skeletons: Path) -> Path:
 def _topics(path: Path) -> tuple[dict[str, str], float]:
     """Types of a bag's topics, and when its first message was received [s]."""
     try:
-        with AnyReader([path]) as reader:
-            return {one.topic: one.msgtype for one in reader.connections}, 1e-9 * reader.start_time
-    except Exception as error:  # the library raises what unpacking wrong bytes happens to raise
-        raise LutError(
-            "unreadable_bag", f"{path}: expected a whole bag, got: {type(error).__name__} {error}"
-        ) from error
+        bag = Bag(path)
+    except RetrieverError as error:
+        raise LutError("unreadable_bag", f"{path}: expected a bag, got: {error.sentence}") from error
+    return bag.kinds, 1e-9 * bag.begins
 
 
 def _fill_cache(recording: Recording, out: Path, on_progress: Progress | None) -> None:

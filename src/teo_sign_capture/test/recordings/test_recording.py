@@ -81,11 +81,24 @@ def test_what_is_no_bag_is_refused(tmp_path: Path) -> None:
         assert error.value.code == "no_bag"
 
 
-def test_a_bag_that_is_cut_off_is_refused(bag: Path) -> None:
+def test_a_bag_that_is_cut_off_before_its_first_message_is_refused(bag: Path) -> None:
     bag.write_bytes(bag.read_bytes()[:3000])
-    with pytest.raises(LutError) as error:
+    with pytest.raises(LutError, match="no message can be read") as error:
         open_recording(bag)
     assert error.value.code == "unreadable_bag"
+
+
+@pytest.mark.slow
+def test_of_images_that_were_cut_off_those_before_the_cut_are_used_and_that_is_said(tmp_path: Path) -> None:
+    (whole,) = SHIPPED.glob("*.mcap")
+    cut = tmp_path / "cut.mcap"
+    content = whole.read_bytes()
+    cut.write_bytes(content[: len(content) // 2])  # within the second of its chunks
+    recording = open_recording(cut)
+    assert not recording.has_skeletons and recording.rendered
+    track, warnings = track_of(recording, cache=tmp_path / "cache")
+    assert len(track.times) > 5
+    assert any("cut off" in warning for warning in warnings)
 
 
 def test_a_bag_without_images_or_skeletons_says_what_it_holds(tmp_path: Path) -> None:

@@ -196,6 +196,7 @@ class _Source(Protocol):
 
     kinds: dict[str, str]
     counts: dict[str, int]
+    begins: int
     problem: str
 
     def messages(self, topics: Collection[str]) -> Iterator[RawMessage]: ...
@@ -230,6 +231,11 @@ class Bag:
     def counts(self) -> dict[str, int]:
         """Number of messages of each topic."""
         return dict(self._source.counts)
+
+    @property
+    def begins(self) -> int:
+        """When its first message was received [ns]."""
+        return self._source.begins
 
     @property
     def problem(self) -> str:
@@ -299,6 +305,7 @@ class _Whole:
         self._reader.open()
         self.kinds = {connection.topic: connection.msgtype for connection in self._reader.connections}
         self.counts = {topic: info.msgcount for topic, info in self._reader.topics.items()}
+        self.begins = self._reader.start_time
         self.problem = ""
 
     def messages(self, topics: Collection[str]) -> Iterator[RawMessage]:
@@ -321,8 +328,10 @@ class _Salvaged:
         self._files = files
         self._faults: dict[Path, str] = {}
         self.kinds: dict[str, str] = {}
+        self.begins = 0
         counts: Counter[str] = Counter()
         for message in self.messages(()):
+            self.begins = min(self.begins or message.time, message.time)
             counts[message.topic] += 1
             self.kinds[message.topic] = message.kind
         self.counts = dict(counts)
