@@ -21,10 +21,14 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
+from teo_sign_capture.entries.gates import most_of
 from teo_signs.errors import LutError
 
 if TYPE_CHECKING:  # they take a second to load, which the other commands of `lut` need not wait for
     from teo_sign_capture.entries.bag_capture import Outcome
+
+# By their breadth nearly all hands are in the person's zone; that of their middles tells them apart.
+_SAID_BY_ANOTHER = ("same_zone_percent",)
 
 _output = Console(highlight=False)
 _errors = Console(stderr=True, highlight=False)
@@ -153,9 +157,13 @@ def tell(outcome: Outcome) -> None:
     _output.print(f"{outcome.gloss}: {outcome.message}", soft_wrap=True)
     table = Table(box=None, show_header=False)
     for name, figure in outcome.quality.items():
+        if name in _SAID_BY_ANOTHER:
+            continue
         words = name.split("_")
         unit = {"deg": "°", "percent": "%", "times": "times", "count": ""}.get(words[-1], words[-1])
-        table.add_row(" ".join(words[:-1]), f"{figure:g}", unit)
+        most = most_of(name)
+        verdict = "" if most is None else f"{'good' if figure <= most else 'BAD'}: at most {most:g}"
+        table.add_row(" ".join(words[:-1]), f"{figure:g}", unit, verdict)
     _output.print(table)
     for note in filter(None, (outcome.notes, *outcome.warnings)):
         _output.print(f"note: {note}", markup=False, soft_wrap=True)

@@ -150,6 +150,11 @@ def judge(quality: Mapping[str, float], *, duration: float, has_rest: bool) -> t
     return (*figures, length, rest)
 
 
+def most_of(figure: str) -> float | None:
+    """The most that a figure of an entry's quality may be; None of one that no gate looks at."""
+    return next((gate.most for gate in _GATES if gate.figure == figure), None)
+
+
 def objections(verdicts: Iterable[Verdict]) -> tuple[Verdict, ...]:
     """The gates that a sign is beyond."""
     return tuple(verdict for verdict in verdicts if not verdict.passed)
