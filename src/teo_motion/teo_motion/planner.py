@@ -187,24 +187,27 @@ class Planner:
         chosen = choose_postures(captured, start=begin.position, end=self._rest, limits=self.limits)
         smaller = chosen if self._size is None else self._size.fitted(chosen, captured)
 
-        def planned(signed: Sequence[SignedToken]) -> Plan:
+        def planned(signed: Sequence[SignedToken], *, by_rest: bool) -> Plan:
             composition = compose(
                 signed, start=begin, limits=self.limits, style=style, rest=self._rest, hold=hold
             )
-            plan = self._avoidance.plan(composition)
+            plan = self._avoidance.plan(composition, by_rest=by_rest)
             gestures = head_gestures([item.token for item in signed], form, self._grammar)
             return self._head.overlaid(plan, signed, gestures)
 
         # Signs in other postures and sizes may touch on their way where their entries keep apart: those
-        # beside the place go back to them.
+        # beside the place go back to them. At last arms go to rest between them.
+        by_rest = False
         ways = [_distinct(*forms) for forms in zip(captured, chosen, smaller, strict=True)]
         while True:
             try:
-                return planned([forms[-1] for forms in ways])
+                return planned([forms[-1] for forms in ways], by_rest=by_rest)
             except SelfCollisionError as collision:
                 beside = [forms for forms in ways[max(collision.token - 1, 0) :][:2] if len(forms) > 1]
                 if not beside:
-                    raise
+                    if by_rest:
+                        raise
+                    by_rest = True
                 for forms in beside:
                     forms.pop()
 

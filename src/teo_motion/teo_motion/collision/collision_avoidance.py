@@ -75,8 +75,12 @@ class CollisionAvoidance:
         self._arm_rest = arm_rest
         self._arms = [column for arm in ARMS for column in limits.humanoid.limb_columns[arm]]
 
-    def plan(self, composition: Composition) -> Plan:
+    def plan(self, composition: Composition, *, by_rest: bool = False) -> Plan:
         """The motion of a composition, led around the robot's body where it would touch it.
+
+        Args:
+            composition: The sentence.
+            by_rest: Whether arms may go to rest between two signs where no shorter way is found.
 
         Raises:
             SelfCollisionError: No such motion is found.
@@ -89,7 +93,7 @@ class CollisionAvoidance:
                 composition, times=times, limits=self._limits, arm_rest=self._arm_rest, cleared=cleared
             )
             try:
-                return self._led_around(self._measured(self._with_clear_thumbs(route)))
+                return self._led_around(self._measured(self._with_clear_thumbs(route)), by_rest=by_rest)
             except SelfCollisionError as collision:
                 more = _idle_arms(composition, collision) - cleared
                 if not more:
@@ -120,7 +124,7 @@ class CollisionAvoidance:
         nearest = self._motion_clearance.nearest(timed.plan.samples)
         return timed._replace(plan=dataclasses.replace(timed.plan, nearest=nearest))
 
-    def _led_around(self, timed: TimedRoute) -> Plan:
+    def _led_around(self, timed: TimedRoute, *, by_rest: bool) -> Plan:
         """The motion of a route, its transitions led around the body.
 
         Raises:
@@ -129,7 +133,7 @@ class CollisionAvoidance:
         for _ in range(_DETOURS_PER_TOKEN * (len(timed.route.spans) + 1)):
             if self._is_clear(timed.plan):
                 break
-            timed = self._with_worst_avoided(timed)
+            timed = self._with_worst_avoided(timed, by_rest=by_rest)
         if not self._is_clear(timed.plan):
             raise self._collision(timed)
         # Arms that go round take longer, and fingers and thumb are elsewhere on their way meanwhile.
@@ -139,8 +143,11 @@ class CollisionAvoidance:
         led = self._measured(led)
         return led.plan if self._is_clear(led.plan) else timed.plan
 
-    def _with_worst_avoided(self, timed: TimedRoute) -> TimedRoute:
-        """Lead the transition with the worst collision around the body."""
+    def _with_worst_avoided(self, timed: TimedRoute, *, by_rest: bool) -> TimedRoute:
+        """Lead the transition with the worst collision around the body.
+
+        By way of rest each half has a way of its own, and is led around by itself in a later round.
+        """
         route, plan, times = timed
         step = _nearest_step(timed)
         first_step, last_step = self._between_postures(route, step)
@@ -164,6 +171,10 @@ class CollisionAvoidance:
                 round_here = range(first_step, last_step + len(postures))
                 if self._is_clear(found.plan) or _nearest_step(found) not in round_here:
                     return found
+            rest = self._limits.humanoid.ready
+            goes_by_rest = any(np.allclose(row[self._arms], rest[self._arms]) for row in (first, second))
+            if by_rest and not goes_by_rest and route.token_at(step) is None:
+                return self._measured(self._timing.timed(with_detour(route, half_way, rest, self._arms)))
         raise self._collision(timed)
 
     def _between_postures(self, route: Route, step: int) -> tuple[int, int]:
