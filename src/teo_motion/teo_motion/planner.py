@@ -203,7 +203,8 @@ class Planner:
             try:
                 return planned([forms[-1] for forms in ways], by_rest=by_rest)
             except SelfCollisionError as collision:
-                beside = [forms for forms in ways[max(collision.token - 1, 0) :][:2] if len(forms) > 1]
+                near = ways[max(collision.token - 1, 0) : collision.token + 1]
+                beside = [forms for forms in near if len(forms) > 1]
                 if not beside:
                     if by_rest:
                         raise
