@@ -40,8 +40,12 @@ class SelfCollisionError(PlanError):
 
     def __init__(self, message: str, token: int) -> None:
         """Say where, and how near what comes."""
-        super().__init__("self_collision", message)
+        super().__init__(code="self_collision", message=message)
         self.token = token
+
+    def __reduce__(self) -> tuple[type[SelfCollisionError], tuple[str, int]]:
+        """Its arguments, so that the error can pass from one process to another."""
+        return SelfCollisionError, (str(self), self.token)
 
 
 class CollisionAvoidance:
