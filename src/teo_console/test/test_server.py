@@ -228,8 +228,12 @@ def test_listening_wider_takes_the_token_of_the_link() -> None:
                 assert response.status == 401
             with pytest.raises(aiohttp.WSServerHandshakeError):
                 await stranger.ws_connect(f"{server.url}/ws", origin=server.url)
-        async with aiohttp.ClientSession(cookie_jar=aiohttp.CookieJar(unsafe=True)) as guest:
+        # A browser that was here before: the server has another token since it was started again.
+        jar, old = aiohttp.CookieJar(unsafe=True), {"teo_console": "of yesterday"}
+        async with aiohttp.ClientSession(cookie_jar=jar, cookies=old) as guest:
             link = access.link("127.0.0.1", server.thread.port)
+            async with guest.get(server.url) as response:
+                assert response.status == 401
             async with guest.get(link) as response:
                 assert response.status == 200
                 assert "token" not in str(response.url)  # it is not left in the history or in what is copied

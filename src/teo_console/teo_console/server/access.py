@@ -110,8 +110,11 @@ class Access:
             )
 
     def _has_token(self, request: web.Request) -> bool:
-        given = request.cookies.get(_COOKIE) or request.query.get(_QUERY) or ""
-        return self.token is not None and hmac.compare_digest(given.encode(), self.token.encode())
+        # A cookie may be of a server before this one, whose link was opened again since.
+        given = (request.query.get(_QUERY, ""), request.cookies.get(_COOKIE, ""))
+        return self.token is not None and any(
+            hmac.compare_digest(one.encode(), self.token.encode()) for one in given
+        )
 
     def link(self, host: str, port: int) -> str:
         """Where a browser finds the page."""
