@@ -64,6 +64,7 @@ class Recordings:
         self._folder = folder
         self._jobs = jobs
         self._recordings: dict[str, Recording] = {}
+        self._coming = 0  # those of which a page has sent a part
         shutil.rmtree(folder, ignore_errors=True)
 
     async def receive(self, pieces: AsyncIterator[bytes], now: float) -> Recording:
@@ -77,13 +78,14 @@ class Recordings:
             ConsoleError: "too_large", "bad_film" (no film, or not one that can be looked at), "busy".
         """
         self.forget_old(now)
-        if len(self._recordings) >= _MOST_RECORDINGS:
+        if len(self._recordings) + self._coming >= _MOST_RECORDINGS:
             raise ConsoleError(
                 "busy", f"expected at most {_MOST_RECORDINGS} recordings at a time: discard some"
             )
         identifier = secrets.token_urlsafe(12)
         folder = self._folder / identifier
         folder.mkdir(parents=True, mode=0o700)
+        self._coming += 1
         try:
             raw = folder / "received"
             await _write(raw, pieces)
@@ -93,6 +95,8 @@ class Recordings:
         except BaseException:
             shutil.rmtree(folder, ignore_errors=True)
             raise
+        finally:
+            self._coming -= 1
         recording = Recording(id=identifier, path=path, received=now, figures=figures)
         self._recordings[identifier] = recording
         return recording

@@ -127,6 +127,24 @@ def test_what_is_too_large_is_refused_before_it_is_all_here(
     assert len(sent) == 3
 
 
+def test_recordings_that_pages_have_half_sent_count(tmp_path: Path) -> None:
+    async def act(recordings: Recordings) -> None:
+        sent = asyncio.Event()
+
+        async def slowly() -> AsyncIterator[bytes]:
+            yield BAG[:10]
+            await sent.wait()
+            yield BAG[10:]
+
+        coming = [asyncio.create_task(recordings.receive(slowly(), 0.0)) for _ in range(40)]
+        await asyncio.sleep(0.0)
+        sent.set()
+        ended = await asyncio.gather(*coming, return_exceptions=True)
+        assert [error.code for error in ended if isinstance(error, ConsoleError)] == ["busy"] * 8
+
+    with_recordings(tmp_path / "recordings", act)
+
+
 def test_a_recording_goes_when_it_is_discarded_grows_old_or_the_console_ends(tmp_path: Path) -> None:
     folder = tmp_path / "recordings"
     taken: list[Recording] = []
