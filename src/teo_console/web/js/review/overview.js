@@ -24,7 +24,15 @@ export async function overview(element, context) {
 function row({ t, notify }, { id, kind, title, items, reviewers, created }) {
   const address = `#review/${id}`;
   const link = new URL(address, location.href).href;
-  const copy = () => navigator.clipboard.writeText(link).then(() => notify(t("review.copied")), () => notify(link));
+  // Over plain http a browser on another machine gives no clipboard: then the link is shown.
+  const copy = async () => {
+    try {
+      await navigator.clipboard.writeText(link);
+      notify(t("review.copied"));
+    } catch {
+      notify(link);
+    }
+  };
   const name = title || `${t(`review.${kind}`)} · ${created.slice(0, 10)}`;
   return h("li", { dataset: { series: id } },
     h("div", {}, h("strong", {}, name), h("p", { class: "faint" }, `${t(`review.${kind}`)} · ${t("review.count", { items, reviewers })}`)),
