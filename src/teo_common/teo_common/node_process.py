@@ -9,8 +9,10 @@ import os
 import signal
 import socket
 import sys
+import textwrap
 import threading
 from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
 from typing import Any
 
 import rclpy
@@ -45,18 +47,25 @@ def tell_supervisor(state: str) -> None:
         print(f"expected a supervisor at NOTIFY_SOCKET={address}: {error.strerror}", file=sys.stderr)
 
 
-def run_node(make_node: Callable[[], Node], arguments: Sequence[str] | None) -> None:
+def run_node(
+    make_node: Callable[[], Node], arguments: Sequence[str] | None, rows: Sequence[ParameterRow] = ()
+) -> None:
     """Make a node and run it until it is told to end (SIGINT, SIGTERM, a shutdown of its context).
 
     A supervisor that asks for it is told when the node is made: it can serve then.
 
     Args:
         make_node: Makes the node, once ROS is there. What it raises passes through, with ROS ended.
-        arguments: Of the command line; None for the process's own.
+        arguments: Of the command line; None for the process's own. `--help` prints the parameters, and no
+            node is made.
+        rows: The node's parameters, for `--help`.
 
     Raises:
         SystemExit: The Fast DDS profile that the environment asks for is not in force.
     """
+    if not {"-h", "--help"}.isdisjoint(sys.argv[1:] if arguments is None else arguments):
+        print(_help(rows))
+        return
     node: Node | None = None
     try:
         profile, sockets = requested_profile(rclpy.get_rmw_implementation_identifier()), own_sockets()
@@ -89,6 +98,24 @@ def run_node(make_node: Callable[[], Node], arguments: Sequence[str] | None) -> 
         if node is not None:
             node.destroy_node()
         rclpy.try_shutdown()
+
+
+def _help(rows: Sequence[ParameterRow]) -> str:
+    """How a node is started, and its parameters."""
+    lines = [
+        f"usage: {Path(sys.argv[0]).name} [--ros-args -p PARAMETER:=VALUE ... -r NAME:=OTHER ...]",
+        "",
+        "Runs until Ctrl-C. While it runs, `ros2 node info` lists its topics, services and actions.",
+        "",
+        "parameters:",
+    ]
+    for row in rows:
+        within = "" if row.low is None else f", {row.low:g} to {row.high:g}"
+        allowed = f", one of {', '.join(row.choices)}" if row.choices else ""
+        fixed = ", fixed at the start" if row.read_only else ""
+        lines.append(f"  {row.name} ({row.default!r}{within}{allowed}{fixed})")
+        lines.append(textwrap.indent(textwrap.fill(row.description, 100), " " * 6))
+    return "\n".join(lines)
 
 
 def _spin(node: Node, executor: SingleThreadedExecutor) -> None:
@@ -142,12 +169,15 @@ class SelfStartingNode(LifecycleNode):
         return {row.name: self._value(row.name) for row in self._rows}
 
 
-def run_self_starting(make_node: Callable[[], SelfStartingNode], arguments: Sequence[str] | None) -> None:
+def run_self_starting(
+    make_node: Callable[[], SelfStartingNode], arguments: Sequence[str] | None, rows: Sequence[ParameterRow]
+) -> None:
     """Make a node, start it if it is to start itself, and run it until it is told to end.
 
     Args:
         make_node: Makes the node, once ROS is there.
         arguments: Of the command line; None for the process's own.
+        rows: The node's parameters.
 
     Raises:
         SystemExit: It could not be started; the log has said why.
@@ -160,4 +190,4 @@ def run_self_starting(make_node: Callable[[], SelfStartingNode], arguments: Sequ
             raise SystemExit(1)
         return node
 
-    run_node(started, arguments)
+    run_node(started, arguments, rows)

@@ -56,6 +56,23 @@ except ValueError as error:
 """
 
 
+@pytest.mark.parametrize(
+    ("package", "executable", "parameter"),
+    [
+        ("teo_sign_translator", "translator_node", "max_sentences (100, 1 to 100"),
+        ("teo_lut_executor", "executor_node", "path_time (0.5, 0 to 10"),
+        ("teo_sim_driver", "driver_node", "update_rate (100, 10 to 500, fixed at the start)"),
+        ("teo_skeleton_retriever", "retriever_node", "detector ("),
+    ],
+)
+def test_every_node_has_help_and_does_not_run_for_it(package: str, executable: str, parameter: str) -> None:
+    command = ["ros2", "run", package, executable, "--help"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60.0, check=True)
+    assert done.stdout.startswith(f"usage: {executable} [--ros-args -p PARAMETER:=VALUE")
+    assert parameter in done.stdout
+    assert not done.stderr
+
+
 @pytest.mark.parametrize("told", [signal.SIGINT, signal.SIGTERM])
 def test_a_node_that_is_told_to_end_is_destroyed_and_ends_well(told: int, domain_id: int) -> None:
     environment = os.environ | {"ROS_DOMAIN_ID": str(domain_id)}

@@ -174,6 +174,6 @@ def _own_addresses() -> list[str]:
 def main(arguments: Sequence[str] | None = None) -> None:
     """Serve the page until told to end."""
     try:
-        run_node(ConsoleNode, arguments)
+        run_node(ConsoleNode, arguments, PARAMETERS)
     except ConsoleError as error:
         sys.exit(f"console: [{error.code}] {error}")

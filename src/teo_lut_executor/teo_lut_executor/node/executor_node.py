@@ -351,7 +351,7 @@ class ExecutorNode(SelfStartingNode):
 
 def main(arguments: list[str] | None = None) -> None:
     """Run the node until it is told to end."""
-    run_self_starting(ExecutorNode, arguments)
+    run_self_starting(ExecutorNode, arguments, PARAMETERS)
 
 
 if __name__ == "__main__":

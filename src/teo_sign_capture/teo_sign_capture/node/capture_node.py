@@ -192,7 +192,7 @@ class CaptureNode(Node):
 
 def main(arguments: list[str] | None = None) -> None:
     """Run the node until it is told to end."""
-    run_node(CaptureNode, arguments)
+    run_node(CaptureNode, arguments, CAPTURE_PARAMETERS)
 
 
 if __name__ == "__main__":

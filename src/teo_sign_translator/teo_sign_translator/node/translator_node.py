@@ -362,7 +362,7 @@ def _to_messages(translation: Translation, item: _Text) -> list[SignSentence]:
 
 def main(arguments: list[str] | None = None) -> None:
     """Run the node until it is told to end."""
-    run_self_starting(TranslatorNode, arguments)
+    run_self_starting(TranslatorNode, arguments, PARAMETERS)
 
 
 if __name__ == "__main__":

@@ -238,7 +238,7 @@ def main(arguments: list[str] | None = None) -> None:
     """Run the node until it is told to end."""
     sys.setswitchinterval(_SWITCH_INTERVAL)
     try:
-        run_node(DriverNode, arguments)
+        run_node(DriverNode, arguments, PARAMETERS)
     except DescriptionError as error:  # of a parameter that is read at the start
         sys.exit(f"driver_node: {error.code}: {error}")
     except DriverError as error:  # likewise

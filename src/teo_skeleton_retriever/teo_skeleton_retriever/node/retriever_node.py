@@ -354,7 +354,7 @@ def _tuned_node() -> RetrieverNode:
 def main(arguments: list[str] | None = None) -> None:
     """Run the node until it is told to end."""
     try:
-        run_node(_tuned_node, arguments)
+        run_node(_tuned_node, arguments, PARAMETERS)
     except RetrieverError as error:
         rclpy.logging.get_logger("skeleton_retriever").fatal(str(error))
         raise SystemExit(1) from None
