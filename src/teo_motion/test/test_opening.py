@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from made_signs import make_sign
 
 from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
@@ -55,6 +56,18 @@ def test_an_opening_is_safe_by_itself_and_the_whole_plan_takes_as_long(
     moving = State(position=position, velocity=velocity, acceleration=acceleration)
     going_on, whole = planner.plan(tokens, moving), planner.plan(tokens)
     assert until + going_on.duration < whole.duration + 0.1
+
+
+def test_no_joint_stops_beyond_its_place_in_the_first_sign(robot: Robot) -> None:
+    """The arms need longer to stop than the neck, which has less far to go."""
+    turn = make_sign("TURN", [[0.1, 0.05], [0.05, 0.0]], [0.0, 0.2], joints=("AxialNeck", "FrontalNeck"))
+    planner = Planner({"TURN": turn}, robot=robot)
+    still = np.zeros(REST.size)
+    hanging = State(position=load_humanoid().hanging, velocity=still, acceleration=still)
+    opened = planner.plan_opening(parse_printed("TURN"), hanging, lasting=0.4)
+    assert opened is not None
+    neck = opened[0].positions[:, opened[0].names.index("AxialNeck")]
+    assert 0.02 < neck.max() < 0.11  # within the smoothness of the stop
 
 
 def test_no_opening_is_made_for_a_pause_that_moves_nothing(planner: Planner) -> None:

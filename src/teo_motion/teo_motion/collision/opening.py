@@ -72,6 +72,9 @@ def opening(
     lasting = period * np.floor(min(lasting, _MOST_OF_THE_WAY * way.duration) / period)
     leaves = _state_after(way.pieces, lasting)
     end, time = stop(leaves, limits)
+    # All joints stop at one time: those that would pass the first sign meanwhile stop at it.
+    low, high = np.minimum(start.position, first), np.maximum(start.position, first)
+    end = replace(end, position=np.clip(end.position, low, high))
     halt = _eased(solver, leaves, end, bounds, time)
     if halt is None:
         return None
