@@ -35,7 +35,6 @@ def random_tokens(
         scale = float(dice.choice(scales))
         kind = Kind[sign.kind.upper()]
         # A number is a word of its own: two in one word are read as the number that they make together.
-        own = words is None or kind == Kind.NUMBER
-        word = most + index if own else int(dice.integers(words or 1))
+        word = most + index if words is None or kind == Kind.NUMBER else int(dice.integers(words))
         tokens.append(Token(gloss=sign.gloss, kind=kind, duration_scale=scale, word_index=word))
     return tokens
