@@ -11,7 +11,6 @@ from __future__ import annotations
 import os
 import re
 import shutil
-import subprocess
 import sys
 import time
 from collections.abc import Callable
@@ -31,7 +30,8 @@ from rclpy.time import Time
 from rich.console import Console
 from rich.table import Table
 from sensor_msgs.msg import JointState
-from teo_sign_msgs.msg import ExecutorStatus, SignSentence, SignToken
+from std_msgs.msg import String
+from teo_sign_msgs.msg import ExecutorStatus, SignSentence, SignToken, TranslationStatus
 
 from teo_bringup.graph import SIGNING, Graph, GraphError
 from teo_description.errors import DescriptionError
@@ -54,6 +54,7 @@ LISTENERS = {
     "joint_trajectory": {"teo_sim_driver", "rosbag2_recorder"},
     "joint_states": {"executor", "rosbag2_recorder", "demo_spectator"},
     "executor_status": {"rosbag2_recorder", "demo_spectator"},
+    "translation_status": {"demo_spectator"},
 }
 START_TIMEOUT = 120.0  # [s] for every process to be there: 3 s; 30 beside ten times what a machine can do
 TRANSLATION_TIMEOUT = 30.0  # [s] from the text to its tokens: a slow machine takes 1 s
@@ -98,12 +99,20 @@ class Spectator(Node):
         status_qos = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self.create_subscription(JointState, "joint_states", self._on_state, 100)
         self.create_subscription(SignSentence, "sign_tokens", self.progress.on_tokens, 100)
+        self.create_subscription(TranslationStatus, "translation_status", self.progress.on_translation, 10)
         self.create_subscription(ExecutorStatus, "executor_status", self.progress.on_status, status_qos)
+        self._text = self.create_publisher(String, "text", 10)
+
+    def say(self, text: str) -> None:
+        """Publish the text that is to be signed."""
+        self._text.publish(String(data=text))
 
     def is_heard(self, topic: str) -> bool:
         """Whether everybody who is to hear a topic listens to it."""
         found = {endpoint.node_name for endpoint in self.get_subscriptions_info_by_topic(topic)}
-        return found >= LISTENERS[topic]
+        # Who is known to listen is not yet matched with what is published here.
+        matched = topic != "text" or self._text.get_subscription_count() >= len(LISTENERS["text"])
+        return matched and found >= LISTENERS[topic]
 
     def start_filming(self) -> None:
         """Keep and film every state from now on."""
@@ -263,21 +272,19 @@ def perform(
         console.print(f"the page is at {page_of(graph.tail('console'))}", markup=False)
     spectator.start_filming()
     console.print(f"signing: {text}", markup=False)
-    message = f"{{data: {yaml_quoted(text)}}}"
-    # Both the translator and the recorder are to get it: "once" alone waits for the first of them.
-    publish = ["ros2", "topic", "pub", "--once", "-w", "2", "text", "std_msgs/msg/String", message]
-    publisher = subprocess.Popen(publish, stdout=subprocess.DEVNULL)
+    spectator.say(text)
     progress = spectator.progress
     with console.status("translating"):
-        wait(lambda: publisher.poll() is not None, START_TIMEOUT, "ros2 topic pub to end", "translator")
-        wait(lambda: progress.expected > 0, TRANSLATION_TIMEOUT, "sign tokens", "translator")
+        wait(
+            lambda: progress.expected > 0 or bool(progress.untranslated),
+            TRANSLATION_TIMEOUT,
+            "sign tokens",
+            "translator",
+        )
+    if progress.untranslated:
+        raise DemoError(f"not signed: {progress.untranslated}")
     with console.status("the robot is signing"):
         wait(lambda: progress.finished, SIGNING_TIMEOUT, "rest after the last sentence", "executor")
-
-
-def yaml_quoted(text: str) -> str:
-    """Write a text as a YAML scalar in single quotes."""
-    return "'" + text.replace("'", "''") + "'"
 
 
 def draw_strip(spectator: Spectator, path: Path, robot: str) -> None:

@@ -5,6 +5,8 @@
 from __future__ import annotations
 
 import multiprocessing
+import signal
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -19,7 +21,7 @@ class LiveFilm:
     """An MP4 that grows as poses are added.
 
     Drawing happens in a process of its own, so that it never delays the listening; the file appears, whole,
-    when the `with` block ends.
+    when the `with` block ends, and not at all when an exception ends it.
     """
 
     def __init__(self, path: Path, robot: str) -> None:
@@ -36,8 +38,12 @@ class LiveFilm:
         """Append a frame: joint positions [rad] by name, and a line of text."""
         self._frames.put((dict(positions), caption))
 
-    def __exit__(self, *_: object) -> None:
-        self._frames.put(None)
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        if kind is None:
+            self._frames.put(None)
+        else:  # what is left to draw would only keep the person from the reason
+            self._process.terminate()
+            self._frames.cancel_join_thread()
         self._process.join()
 
     @property
@@ -47,9 +53,8 @@ class LiveFilm:
 
 
 def _draw(path: Path, robot: str, frames: multiprocessing.Queue[_Frame | None]) -> None:
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # the unfinished file goes as the block ends
     renderer, frame = Renderer(Robot.load(robot)), frames.get()
-    if frame is None:  # nothing was signed, and whoever waited for it says why
-        return
     with MotionVideo(path, frames_per_second=FRAMES_PER_SECOND) as video:
         while frame is not None:
             positions, caption = frame

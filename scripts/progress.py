@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from teo_sign_msgs.msg import ExecutorStatus, SignSentence, TokenTiming
+from teo_sign_msgs.msg import ExecutorStatus, SignSentence, TokenTiming, TranslationStatus
 
 
 @dataclass
@@ -20,6 +20,7 @@ class Progress:
     sentences: dict[int, SignSentence] = field(default_factory=dict)
     started: dict[int, ExecutorStatus] = field(default_factory=dict)
     refusals: list[str] = field(default_factory=list)
+    untranslated: str = ""  # why the translator refused the text
     at_rest: bool = False
 
     def on_tokens(self, sentence: SignSentence) -> None:
@@ -28,6 +29,12 @@ class Progress:
         if sentence.utterance_id != self.utterance:
             return
         self.sentences[sentence.sentence_index] = sentence
+
+    def on_translation(self, outcome: TranslationStatus) -> None:
+        """Take what became of a text, the first that is heard of."""
+        if outcome.code and not self.utterance:
+            self.utterance = outcome.utterance_id
+            self.untranslated = f"{outcome.code}: {outcome.message}"
 
     def on_status(self, status: ExecutorStatus) -> None:
         """Take what the executor says it is doing."""

@@ -88,3 +88,4 @@ def test_it_fails_clearly_when_nothing_can_be_signed(tmp_path: Path) -> None:
     result = demo("Привет", tmp_path)
     assert result.returncode == 1
     assert "unsignable_text" in result.stdout
+    assert {left.name for left in tmp_path.iterdir()} == {"bag", "log"}, "a film of a robot that only waited"
