@@ -8,6 +8,7 @@ what they like. Glosses become signs, names and numbers, with a pause where a ma
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -268,9 +269,21 @@ def _output_words(
     meant = [reading for reading in readings if copied_gloss(reading) == gloss.gloss]
     if gloss.gloss[0].isdigit():
         return number(gloss.gloss, typed, gloss.probability, names.decimal)
+    if meant and meant[0].tag == "NAME" and not names.symbols.keys().isdisjoint(gloss.gloss):
+        return _address(gloss, typed, names)
     if _is_name([words[source] for source in gloss.sources], meant, named=named):
         return [lexical(gloss.gloss, typed, gloss.probability, is_name=True)]
     return [lexical(gloss.gloss, typed, gloss.probability, origin)]
+
+
+def _address(gloss: OutputGloss, typed: tuple[str, ...], names: GlossNames) -> list[OutputWord]:
+    """An address as people spell it: its words, and a sign for each symbol between them."""
+    parts = re.split(f"([{re.escape(''.join(names.symbols))}])", gloss.gloss)
+    return [
+        lexical(names.symbols.get(part, part), typed, gloss.probability, is_name=part not in names.symbols)
+        for part in parts
+        if part
+    ]
 
 
 def _is_name(words: Sequence[SourceWord], meant: Sequence[Reading], *, named: bool) -> bool:

@@ -44,6 +44,7 @@ from teo_sign_translator.pointer import load_sentence_model
 from teo_sign_translator.pointer.config import POINTER
 from teo_sign_translator.pointer.decoding import SCHEMA
 from teo_sign_translator.text.cleaning import clean
+from teo_sign_translator.text.other_languages import OtherLanguages
 from teo_sign_translator.text.reading import Clause, WordKind, is_negated, read, sentence_type
 from teo_sign_translator.text.rules import TextRules
 
@@ -91,6 +92,7 @@ class Translator:
         spelling: Spelling | None = None,
         incorporated: Incorporated | None = None,
         senses: Sequence[Sense] = (),
+        others: OtherLanguages | None = None,
         *,
         min_confidence: float = DEFAULT_MIN_CONFIDENCE,
         language: str = DEFAULT_LANGUAGE,
@@ -104,6 +106,7 @@ class Translator:
             spelling: Its alphabet; by default the default language's.
             incorporated: Glosses that take up a number; None for none.
             senses: What is signed where a gloss's sign says another sense.
+            others: Recognises texts of other languages; None takes all for its own.
             min_confidence: A sentence that holds a token less sure than this is called uncertain, 0 to 1.
             language: Code of the sign language that it translates into.
         """
@@ -114,6 +117,7 @@ class Translator:
         self._spelling = spelling or Spelling.load()
         self._incorporated = incorporated or {}
         self._senses = senses
+        self._others = others
         self.min_confidence = min_confidence
 
     @classmethod
@@ -150,6 +154,7 @@ class Translator:
         spelling = Spelling(data)
         lists = SubstituteLists.load(data.text)
         schema = read_card(name, directory).get("schema")
+        others = None
         if schema == SCHEMA:
             morphology = Morphology.load(data.text)
             model = load_sentence_model(name, directory)
@@ -162,6 +167,7 @@ class Translator:
                 beam_width=beam_width,
             )
             chooser = SignChooser(lists, morphology, substitutes, spelling)
+            others = OtherLanguages.load(data.text, data.spoken.name, morphology)
         else:
             back_end = load_other_back_end(name, schema, directory, data.text)
             chooser = SignChooser(lists, None, substitutes, spelling)
@@ -173,6 +179,7 @@ class Translator:
             spelling,
             incorporated,
             read_senses(data.text / SENSES),
+            others,
             min_confidence=min_confidence,
             language=data.code,
         )
@@ -199,8 +206,8 @@ class Translator:
             signs: Glosses that have a sign; see `SignChooser.choose`.
 
         Raises:
-            TranslationError: "empty_text", "nothing_to_sign", "unsignable_text", "text_too_long",
-                "broken_encoding".
+            TranslationError: "empty_text", "nothing_to_sign", "unsignable_text", "other_language",
+                "text_too_long", "broken_encoding".
         """
         (answer,) = self.translate_all([text], signs)
         if isinstance(answer, TranslationError):
@@ -285,6 +292,7 @@ class Translator:
                     f"expected words, got only marks or symbols: {_shortened(cleaned.text.strip())}",
                 )
             self._refuse_other_scripts(reading.clauses)
+            self._refuse_other_languages(reading.clauses)
         except TranslationError as error:
             return error
         return _Read(text, cleaned.text, reading.clauses, cleaned.ignored + reading.ignored)
@@ -309,6 +317,18 @@ class Translator:
                 "unsignable_text",
                 f"expected words in Latin letters, got {named}{more}, which {self._spelling.name} cannot "
                 "spell: transcribe them",
+            )
+
+    def _refuse_other_languages(self, clauses: Sequence[Clause]) -> None:
+        """Refuse what is not of the language that is translated, with how sure that is."""
+        found = self._others.find(clauses) if self._others else None
+        if self._others and found:
+            spoken = self._others.spoken
+            named = ", ".join(f"'{word}'" for word in found.unknown[:_NAMED_CHARACTERS])
+            raise TranslationError(
+                "other_language",
+                f"expected {spoken}, got what looks like {found.name}: {len(found.unknown)} of "
+                f"{found.words} words are not {spoken} ({named}); write it in {spoken}",
             )
 
 

@@ -21,6 +21,8 @@ _YEAR = r"(?:(?P=mark)(?P<year>\d{4}|\d\d))?(?![/\d]|[.,]\d)"
 _DAY_MONTH = re.compile(rf"{_DAY}(?P<mark>[/.-]){_MONTH}{_YEAR}")
 _MONTH_DAY = re.compile(rf"{_MONTH}(?P<mark>[/.-]){_DAY}{_YEAR}")
 
+_FRACTION = re.compile(r"(\d{1,2})/(\d{1,2})(?![\d/]|[.,]\d)")
+
 _ROMAN = re.compile(r"(?=..)X{0,3}(?:IX|IV|V?I{0,3})")
 _ROMAN_LETTERS = {"I": 1, "V": 5, "X": 10}
 
@@ -60,6 +62,8 @@ class Numerals:
         ordinals: Words of the ordinals from 1 on that are said in full.
         ordinal: Pattern of an ordinal in digits; its first group is the number.
         feminine: Last letters of an ordinal in digits that is feminine, and the last letter of its word.
+        fractions: What a fraction is of: halves, thirds, quarters ...; of several, with `fraction_plural` behind it.
+        fraction_plural: Ending of such a word where several are meant ("tres cuartos").
         months: Their names.
         month_first: Whether a date in digits has its month first.
         before_dates: Words before a day and a month in digits; without one of them "1/2" is a half.
@@ -81,6 +85,8 @@ class Numerals:
     ordinals: tuple[str, ...]
     ordinal: re.Pattern[str]
     feminine: tuple[str, str]
+    fractions: tuple[str, ...]
+    fraction_plural: str
     months: tuple[str, ...]
     month_first: bool
     before_dates: frozenset[str]
@@ -196,7 +202,7 @@ class Numerals:
         return 0, 0
 
     def match_digits(self, text: str, start: int, before: str = "") -> list[Digits]:
-        """Read what is said in digits at a place of a text: a number, an ordinal, a time of day, a date.
+        """Read what is said in digits at a place of a text: a number, ordinal, fraction, time of day or date.
 
         Thousands may also be written with spaces; a single mark of the other language is taken for a decimal
         one. Anything else is several numbers.
@@ -217,6 +223,8 @@ class Numerals:
             return [Digits(start, ordinal.end(), ordinal[1], self._ordinal(ordinal[1], ordinal[0][-1]))]
         if date := self._date(text, start, before):
             return date
+        if fraction := self._fraction(text, start):
+            return fraction
         spaced = _SPACED_THOUSANDS.match(text, start)
         if spaced is not None:
             return [Digits(start, spaced.end(), spaced[0].replace(" ", ""))]
@@ -243,6 +251,22 @@ class Numerals:
         month = Digits(*date.span("month"), "", self.months[int(date["month"]) - 1])
         year = [Digits(*date.span("year"), date["year"])] if date["year"] else []
         return [*((month, day) if self.month_first else (day, month)), *year]
+
+    def _fraction(self, text: str, start: int) -> list[Digits]:
+        """A fraction that has a name, e.g. `3/4`; one of something is that thing alone: `1/2 kilo` is "medio kilo"."""
+        fraction = _FRACTION.match(text, start)
+        if fraction is None:
+            return []
+        count, parts = int(fraction[1]), int(fraction[2])
+        if not 0 < count < parts < 2 + len(self.fractions):
+            return []
+        word = self.fractions[parts - 2]
+        if count == 1:
+            return [Digits(*fraction.span(), "", word)]
+        return [
+            Digits(*fraction.span(1), str(count)),
+            Digits(*fraction.span(2), "", word + self.fraction_plural),
+        ]
 
     def _ordinal(self, digits: str, mark: str) -> str:
         """The word of an ordinal that has one; its gender is that of the mark's last letter."""

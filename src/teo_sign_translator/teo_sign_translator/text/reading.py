@@ -16,6 +16,14 @@ from teo_sign_translator.text.numerals import Numerals
 from teo_sign_translator.text.rules import Found, SentenceWords, TextRules
 
 _LETTERS_AND_DIGITS = re.compile(r"[^\W_]+")
+# Of mail and of the web, those without "www." by the endings that people write most here.
+_ADDRESS = re.compile(
+    r"[A-Za-z0-9][\w.+-]*@[A-Za-z0-9-]+(?:\.[A-Za-z0-9-]+)+"
+    r"|(?:https?://|www\.)[A-Za-z0-9./?=&_%#-]*[A-Za-z0-9/]"
+    r"|[A-Za-z0-9-]+(?:\.[A-Za-z0-9-]+)*\.(?:com|org|net|info|edu|es|eu|uk)(?![\w@])(?:/[A-Za-z0-9./_-]*[A-Za-z0-9/])?",
+    re.ASCII,
+)
+_SCHEME = re.compile(r"https?://")
 _PAUSES = ",;:()[]{}–—―"
 #: Marks behind which a capital says nothing of the word; of a quote, only where one opens.
 _EXPLAINING = ":([{–—―•*¿¡"
@@ -28,6 +36,7 @@ class WordKind(Enum):
 
     LETTERS = "letters"
     NUMBER = "number"
+    ADDRESS = "address"
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,6 +153,11 @@ class _Reader:
         text = self._text
         character = text[index]
         after = index + 1
+        address = _ADDRESS.match(text, index)
+        if address is not None:
+            said = _SCHEME.sub("", address.group()).lower()  # nobody says how a page is fetched
+            self._add(Word((address.group(),), WordKind.ADDRESS, stands_for=said), index)
+            return address.end()
         if character in "0123456789":
             return self._digits(index)
         found = self._rules.expressions.match(text, index)

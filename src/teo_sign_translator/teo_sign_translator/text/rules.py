@@ -176,11 +176,13 @@ class GlossNames:
         decimal: Between the whole and the decimals of a number ("tres coma cinco").
         name: Behind it stands somebody's name.
         currencies: Beside them a number with decimals is a price.
+        symbols: Between the letters of an address ("ana@correo.es").
     """
 
     decimal: str
     name: str
     currencies: frozenset[str]
+    symbols: dict[str, str]
 
 
 @dataclass(frozen=True)

@@ -221,6 +221,8 @@ def _source_word(
     if word.kind is WordKind.NUMBER and not word.stands_for:
         return SourceWord(text, word.value, capital, (Reading(word.value, "NUM"),))
     form = word.lower
+    if word.kind is WordKind.ADDRESS:
+        return SourceWord(text, form, True, (Reading(form, "NAME"),))
     if form == "x":  # a number that is not said: "Yo tengo X años"
         return SourceWord(text, form, capital, (Reading("X", "NUM"),))
     if not word.stands_for and is_drawn_out(form):

@@ -54,6 +54,7 @@ def test_the_papers_39_sentences_are_exact(default: Translator, way: str) -> Non
         ("Me llamo Al.", "MI NOMBRE A-L"),
         ("¿Quién es Ana?", "A-N-A QUIÉN"),
         ("Tengo treinta y cinco años", "YO EDAD 35"),
+        ("Mi correo es eva@uc3m.es", "CORREO MI E-V-A ARROBA U-C 3 M PUNTO E-S"),
     ],
 )
 def test_names_are_spelled_and_numbers_counted(default: Translator, text: str, glosses: str) -> None:

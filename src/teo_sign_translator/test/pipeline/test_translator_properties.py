@@ -53,7 +53,14 @@ TRANSLATORS = {
     "wild": translator_with(WildModel()),
 }
 ALL = pytest.mark.parametrize("name", TRANSLATORS)
-REASONS = {"empty_text", "nothing_to_sign", "unsignable_text", "broken_encoding", "text_too_long"}
+REASONS = {
+    "empty_text",
+    "nothing_to_sign",
+    "unsignable_text",
+    "other_language",
+    "broken_encoding",
+    "text_too_long",
+}
 OTHERS = """
     Ana, Pedro, Guillermo, me, llamo, tengo, años, 7, 12, 3,5, 1.000, treinta, y, cinco, mil, X,
     que, tal, COVID-19, nº, 1º, 15:30, 25/12, EE. UU., xq, tb, holaaaa, km, 5 km, III, venga,

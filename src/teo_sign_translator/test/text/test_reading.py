@@ -51,7 +51,7 @@ def _words(text: str) -> list[list[str]]:
         ("Hola, me llamo Ana.", [["Hola"], ["me", "llamo", "Ana"]]),
         ("Ana ¿quién es Ana?", [["Ana"], ["quién", "es", "Ana"]]),
         ("El Sr. Pérez y J. Gil", [["El", "Sr.", "Pérez", "y", "J", "Gil"]]),
-        ("uc3m.es", [["uc3m", "es"]]),
+        ("uc3m.es", [["uc3m.es"]]),
         ("Hola.Adiós", [["Hola"], ["Adiós"]]),
         ("Bueno... pues sí", [["Bueno"], ["pues", "sí"]]),
         ("ex-marido d'Ors", [["ex", "marido", "d", "Ors"]]),
