@@ -92,6 +92,7 @@ def leaks(root: Path) -> list[str]:
     return sorted(set(found))
 
 
+@pytest.mark.slow
 def test_no_evaluation_sentence_is_in_what_the_translator_was_made_from() -> None:
     assert len(sentences(ROOT)) > 600
     assert leaks(ROOT) == []

@@ -149,6 +149,7 @@ def test_no_limit_is_broken_from_any_start(
     check(plan, tokens, table, start, driver_view)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ROBOTS)
 def test_a_robot_keeps_clear_of_itself_or_says_that_it_cannot(
     random_table: Callable[..., dict[str, Sign]], name: str

@@ -118,6 +118,7 @@ def test_what_is_repeated_four_times_is_repeated_twice(robot: Robot, make_sign: 
     assert less.duration == pytest.approx(5 * 0.2)
 
 
+@pytest.mark.slow
 def test_contacts_of_the_table_are_kept(robot: Robot) -> None:
     """Where a word touches the body or the other hand, it does so when it is smaller."""
     lut = Lut.open()

@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Thousands of random trajectories, good and spoilt: no limit is ever broken, and nothing ever crashes."""
+"""Hundreds of random trajectories, good and spoilt: no limit is ever broken, and nothing ever crashes.
+
+The examples are the same in every run; the bench `nodes.driver_robustness` tries new ones by the thousand.
+"""
 
 import copy
 from collections import Counter
@@ -127,7 +130,7 @@ class Watch:
 
 
 @pytest.mark.slow
-@settings(max_examples=1000, deadline=None, derandomize=True)
+@settings(max_examples=200, deadline=None, derandomize=True)
 @given(seed=st.integers(0, 2**32), tightness=st.floats(0.6, 1.0))
 def test_what_is_within_the_limits_is_accepted_and_executed_within_them(
     new_follower, limits, home, seed, tightness
@@ -154,7 +157,7 @@ def test_a_trajectory_over_the_speed_limit_is_refused_for_its_speed(
     assert refusal.value.code in TOO_FAST
 
 
-@settings(max_examples=150, deadline=None, derandomize=True)
+@settings(max_examples=50, deadline=None, derandomize=True)
 @given(seed=st.integers(0, 2**32))
 def test_stopping_at_any_time_breaks_no_limit_and_ends_at_rest(new_follower, limits, home, seed):
     rng = np.random.default_rng(seed)
@@ -176,7 +179,7 @@ def test_stopping_at_any_time_breaks_no_limit_and_ends_at_rest(new_follower, lim
     assert watch.follower.report().limited_steps == 0
 
 
-@settings(max_examples=40, deadline=None, derandomize=True)
+@settings(max_examples=15, deadline=None, derandomize=True)
 @given(seed=st.integers(0, 2**32))
 def test_whatever_comes_in_whatever_order_breaks_no_limit(new_follower, limits, seed):
     rng = np.random.default_rng(seed)

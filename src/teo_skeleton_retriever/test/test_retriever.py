@@ -73,6 +73,7 @@ def test_two_thirds_of_the_depth_may_be_missing() -> None:
     assert error(skeleton.right_hand.points, truth.right_hand) < 0.02
 
 
+@pytest.mark.slow
 def test_sigma_tells_how_far_joints_are_off() -> None:
     ratios = []
     for seed in range(6):
@@ -264,7 +265,7 @@ def test_every_layout_of_bodies_is_taken() -> None:
 
 
 @pytest.mark.slow
-def test_memory_is_bounded_over_ten_thousand_images() -> None:
+def test_memory_is_bounded_over_thousands_of_images() -> None:
     retriever = Retriever(replace(AT_ONCE, optimise_limbs=False))
     image = frame(0.0, signing(0.0))
     seen = (Person2D(body=image.people[0].body),)
@@ -277,8 +278,8 @@ def test_memory_is_bounded_over_ten_thousand_images() -> None:
             retriever.process(replace(image, stamp=i / 10.0, people=() if gone else seen))
         return int(Path("/proc/self/statm").read_text().split()[1]) * resource.getpagesize()
 
-    before = play(0, 2000)
-    assert play(2000, 10_000) - before < 2_000_000  # [bytes]
+    before = play(0, 1000)
+    assert play(1000, 4000) - before < 750_000  # [bytes]: a skeleton kept for each image would be 30 MB
 
 
 def test_time_that_stands_still_harms_nothing() -> None:

@@ -148,6 +148,7 @@ def test_a_picture_that_cannot_be_drawn_costs_no_entry(
     assert "SIGNO" in Lut.open(settings.table)
 
 
+@pytest.mark.slow
 def test_killing_it_at_any_moment_leaves_whole_entries(settings: Settings, tmp_path: Path) -> None:
     bag = write_bag(tmp_path / "SIGNO.mcap", slow())
     program = (

@@ -32,6 +32,7 @@ def beside(out: Path, who: Sequence[str]) -> Path:
     return out
 
 
+@pytest.mark.slow
 def test_of_two_people_the_first_is_followed_and_the_other_mentioned(tmp_path: Path) -> None:
     who = ["right"] * 4 + ["left right"] * 12 + ["left"] * 4
     film = beside(tmp_path / "two.mp4", who)

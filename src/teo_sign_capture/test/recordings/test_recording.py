@@ -153,6 +153,7 @@ def test_a_worker_that_may_start_no_process_retrieves_by_itself(
     assert error.value.code == "no_depth"
 
 
+@pytest.mark.slow
 def test_a_retriever_that_dies_is_told_and_leaves_nothing(tmp_path: Path) -> None:
     def kill(*_: int) -> None:
         for process in active_children():
@@ -164,6 +165,7 @@ def test_a_retriever_that_dies_is_told_and_leaves_nothing(tmp_path: Path) -> Non
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 def test_whoever_watches_can_stop_the_retriever(tmp_path: Path) -> None:
     class StoppedError(Exception):
         pass

@@ -29,6 +29,7 @@ def pointer() -> SentenceModel:
     return small_model(POINTER, fit_small(POINTER, sentence_pairs(600), epochs=6, rare_word=5.0))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["rnn_equal", "gru", "lstm_stacked", "gru_attention", POINTER])
 def test_each_mechanism_learns_a_few_sentences_by_heart(name: str) -> None:
     pairs = sentence_pairs(4)
