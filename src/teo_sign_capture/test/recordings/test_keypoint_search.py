@@ -9,6 +9,7 @@ from pathlib import Path
 
 import av
 import numpy as np
+import pytest
 from pose_format import Pose
 
 from teo_sign_capture.recordings.keypoint_search import find_points

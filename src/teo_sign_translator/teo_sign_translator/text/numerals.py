@@ -62,8 +62,8 @@ class Numerals:
         ordinals: Words of the ordinals from 1 on that are said in full.
         ordinal: Pattern of an ordinal in digits; its first group is the number.
         feminine: Last letters of an ordinal in digits that is feminine, and the last letter of its word.
-        fractions: What a fraction is of: halves, thirds, quarters ...; of several, with `fraction_plural` behind it.
-        fraction_plural: Ending of such a word where several are meant ("tres cuartos").
+        fractions: Words of a half, a third, a quarter and so on.
+        fraction_plural: Ending of such a word behind a number ("tres cuartos").
         months: Their names.
         month_first: Whether a date in digits has its month first.
         before_dates: Words before a day and a month in digits; without one of them "1/2" is a half.
@@ -253,7 +253,7 @@ class Numerals:
         return [*((month, day) if self.month_first else (day, month)), *year]
 
     def _fraction(self, text: str, start: int) -> list[Digits]:
-        """A fraction that has a name, e.g. `3/4`; one of something is that thing alone: `1/2 kilo` is "medio kilo"."""
+        """Read a fraction that has a word; one of them is the word alone: `1/2 kilo` is "medio kilo"."""
         fraction = _FRACTION.match(text, start)
         if fraction is None:
             return []
