@@ -113,6 +113,16 @@ def test_a_robot_that_does_not_move_is_noticed_while_signing(world: World) -> No
     assert len(world.sent) < 10, "a robot that cannot be brought to rest is left alone after some tries"
 
 
+def test_a_robot_whose_joint_states_come_late_follows_all_the_same(world: World) -> None:
+    world.link = 0.3  # [s]; a stamp tells where the robot was then
+    world.run(1.0)
+    ticket = world.sign("TÚ CASA A-N-A")
+    world.run_until(lambda: bool(world.finished()))
+    assert world.finished() == [(ticket, Outcome.SUCCESS)]
+    assert Activity.FAULT not in world.activities()
+    assert len([event for event in world.events if isinstance(event, PlanWanted)]) == 1
+
+
 def test_a_robot_that_stops_following_is_stopped_and_the_sentence_signed_again(world: World) -> None:
     world.run(0.1)
     first, second = world.sign("A-N-A-N"), world.sign("TÚ")

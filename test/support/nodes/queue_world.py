@@ -65,6 +65,7 @@ class World:
         self.velocities = np.zeros(load_humanoid().ready.size)
         self.path: list[tuple[np.ndarray, np.ndarray]] = []  # positions and velocities of every tick
         self.lag = 0.0  # of the robot behind what it was sent [s]
+        self.link = 0.0  # of joint states on their way to the executor [s]
         self.pace = 1.0  # path time per time
         self.delay = 0.0  # of motions on their way to the driver [s]
         self.takes_stops = True
@@ -73,6 +74,7 @@ class World:
         self._mode: DriverMode | None = None  # what the driver was told to be, None: it moves or holds
         self._told: tuple[object, ...] = ()  # of what it said last, what it says at once when it changes
         self._ticks = 0
+        self._states: list[tuple[float, list[float], list[float]]] = []  # on their way, by their stamp
         self._mail: list[tuple[float, TrajectoryReady | StopReady]] = []  # by when it reaches the driver
         self._motions: list[tuple[float, Plan]] = []  # by the path time at which each begins
         self._stop: tuple[float, float, np.ndarray, np.ndarray] | None = None
@@ -234,8 +236,10 @@ class World:
                 self.velocities = velocities * self.pace
         self.path.append((self.positions, self.velocities))
         if self.publishes_states:
-            state = self.positions.tolist(), self.velocities.tolist()
-            self.queue.joint_states(COMMANDED_JOINTS, *state, self.now)
+            self._states.append((self.now, self.positions.tolist(), self.velocities.tolist()))
+            while self._states and self._states[0][0] <= self.now - self.link:
+                stamp, *state = self._states.pop(0)
+                self.queue.joint_states(COMMANDED_JOINTS, *state, self.now, stamp=stamp)
             self._report()
         self._answer()
         self.take(self.queue.step(self.now, obstacle=self.obstacle))

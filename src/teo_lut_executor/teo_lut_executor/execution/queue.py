@@ -157,11 +157,29 @@ class ExecutionQueue:
         return self._work.progress()
 
     def joint_states(
-        self, names: Sequence[str], positions: Sequence[float], velocities: Sequence[float], now: float
+        self,
+        names: Sequence[str],
+        positions: Sequence[float],
+        velocities: Sequence[float],
+        now: float,
+        *,
+        stamp: float | None = None,
     ) -> str:
-        """Take a joint state; see `RobotState.update`."""
+        """Take a joint state; see `RobotState.update`.
+
+        Args:
+            names: Its joints.
+            positions: [rad], one for each.
+            velocities: [rad/s], one for each, or empty.
+            now: [s].
+            stamp: When the robot was there [s]; None if it does not say.
+        """
         self._work.tick(now)
-        return self._work.situation.robot.update(names, positions, velocities, now)
+        situation = self._work.situation
+        # A stamp that is older than joint states may be, or of the future, is of another clock.
+        known = max(situation.clock_set, now - situation.settings.joint_state_timeout)
+        then = stamp if stamp is not None and known < stamp <= now else now
+        return situation.robot.update(names, positions, velocities, then)
 
     def driver_state(self, report: DriverReport, now: float) -> list[Effect]:
         """Take what the driver says of itself."""

@@ -30,7 +30,7 @@ class RobotState:
         self._still_since = np.inf
 
     def update(
-        self, names: Sequence[str], positions: Sequence[float], velocities: Sequence[float], now: float
+        self, names: Sequence[str], positions: Sequence[float], velocities: Sequence[float], then: float
     ) -> str:
         """Take a joint state.
 
@@ -38,7 +38,7 @@ class RobotState:
             names: Its joints.
             positions: [rad], one for each.
             velocities: [rad/s], one for each, or empty: then the joints count as standing still.
-            now: When it arrived [s].
+            then: When the robot was there [s].
 
         Returns:
             Why it was not taken; empty if it was.
@@ -61,11 +61,11 @@ class RobotState:
             return "expected finite positions and velocities, got others"
         self._positions[columns] = position
         self._velocities[columns] = np.where(np.abs(velocity) < _STILL, 0.0, velocity)
-        self._seen[columns] = now
+        self._seen[columns] = then
         if self._velocities.any():
             self._still_since = np.inf
         elif self._still_since == np.inf:
-            self._still_since = now
+            self._still_since = then
         return ""
 
     @property

@@ -227,7 +227,14 @@ class ExecutorNode(SelfStartingNode):
         self._step()
 
     def _on_joint_states(self, message: JointState) -> None:
-        problem = self._queue.joint_states(message.name, message.position, message.velocity, self._now())
+        stamp = message.header.stamp
+        problem = self._queue.joint_states(
+            message.name,
+            message.position,
+            message.velocity,
+            self._now(),
+            stamp=stamp.sec + stamp.nanosec * 1e-9,
+        )
         if problem:
             self.get_logger().warning(f"joint state not taken: {problem}", throttle_duration_sec=5.0)
 
