@@ -12,6 +12,7 @@ from teo_sign_translator.pipeline.translator import Translator
 TRANSLATOR = Translator.load()
 # Text, glosses that are signed, glosses that are not.
 CASES = [
+    ("Mi vecina acaba de irse.", "YA", "TERMINAR"),
     ("Mi clase acaba a las tres y media.", "Y_MEDIA", "MEDIO"),
     ("Quiero media manzana.", "MEDIO", "Y_MEDIA"),
     ("La media está rota.", "", "MEDIO Y_MEDIA"),
