@@ -13,6 +13,8 @@ TRANSLATOR = Translator.load()
 # Text, glosses that are signed, glosses that are not.
 CASES = [
     ("Mi vecina acaba de irse.", "YA", "TERMINAR"),
+    ("Llegué tarde por la nieve.", "PORQUE", "MOTIVO"),
+    ("Estudio para que mi madre esté contenta.", "MOTIVO", "PORQUE"),
     ("Mi clase acaba a las tres y media.", "Y_MEDIA", "MEDIO"),
     ("Quiero media manzana.", "MEDIO", "Y_MEDIA"),
     ("La media está rota.", "", "MEDIO Y_MEDIA"),

@@ -12,6 +12,7 @@ from typing import NamedTuple, TypeVar
 
 from teo_sign_training.corpus.grammar import (
     CLITIC,
+    DOER,
     LEXICAL,
     VERB,
     GlossItem,
@@ -111,7 +112,8 @@ class Sides:
         handed: Features handed down to the rule: the person of a verb without a subject of its own.
         words: Inflects.
         grammar: Gives the forms of agreeing words. Of its lists `unsaid_verbs` have no sign beside what they
-            govern ("tengo fiebre"), the path of `directed_verbs` shows whom a clitic means ("te ayudo").
+            govern ("tengo fiebre"), the path of `directed_verbs` shows whom a clitic means ("te ayudo"), and
+            `person_verbs` are done to people alone ("lo saludo").
     """
 
     rule: Rule
@@ -143,7 +145,7 @@ class Sides:
         if phrase.verb and not phrase.verb.said:
             self._say(phrase, phrase.verb, subject)
         elif subject and phrase.verb and phrase.verb.said:
-            subject.say(VERB, phrase.verb.said.finite)
+            _say_subject(subject, phrase.verb, phrase.verb.said.finite)
         return phrase.tokens
 
     def _literal(self, item: TextItem) -> SaidWord:
@@ -180,13 +182,17 @@ class Sides:
         phrase.signs = verb_signs(verb.word.lemma, verb.shape, said, said_alone=alone, denied=self._denies())
         phrase.head = said.main
         directed = verb.word.lemma in self.grammar.word_lists.get("directed_verbs", ())
+        of_people = verb.word.lemma in self.grammar.word_lists.get("person_verbs", ())
         for carrier, token in zip(carrying, said.clitics, strict=True):
             shown = directed and "feels" not in carrier.features
-            if shown or carrier.features["clitic"] in self.words.clitics.accusative:
+            thing = not of_people and carrier.features["clitic"] in self.words.clitics.accusative
+            if shown or thing:
                 carrier.leave_out(CLITIC)
+            verb.acts |= any(sign.pending == CLITIC for sign in carrier.signs)
             carrier.say(CLITIC, token)
+        verb.acts |= any("whom" in phrase.features for phrase in self.slots.values())
         if subject:
-            subject.say(VERB, said.finite)
+            _say_subject(subject, verb, said.finite)
             for sign in phrase.signs:  # before it stands its subject
                 sign.leads = False
 
@@ -209,7 +215,7 @@ class Sides:
     def _gloss(self, item: GlossItem) -> Sign:
         sign = Sign(item.gloss)
         for source in item.sources:
-            if source in (VERB, CLITIC):
+            if source in (VERB, CLITIC, DOER):
                 sign.pending = source
             elif source.startswith("{"):
                 head = self.slots[source.strip("{}")].head
@@ -222,6 +228,15 @@ class Sides:
             sign.sources.append(verb.said.finite)
             sign.pending = ""
         return sign
+
+
+def _say_subject(subject: Phrase, verb: SaidVerb, finite: SaidWord) -> None:
+    """Make a verb's ending say its subject; an understood one only where another could be meant."""
+    subject.say(VERB, finite)
+    if verb.acts:
+        subject.say(DOER, finite)
+    else:
+        subject.leave_out(DOER)
 
 
 #: Handed down to all that is inside, unless the rule says otherwise.
@@ -279,6 +294,7 @@ class Derivation:
         phrase = self._phrase(rule, {}, "", spread)
         text, places = write(phrase.tokens, self.grammar.writing, self._contracts)
         lists = self.grammar.word_lists
+        phrase.leave_out(DOER)
         signs = denied_once(without_addressee(phrase.signs, lists, asked="?" in text), lists)
         lost = [sign.gloss for sign in signs if any(id(token) not in places for token in sign.sources)]
         if lost:

@@ -14,8 +14,8 @@ from teo_sign_training.corpus.writing import Writing
 LEXICAL = ("noun", "adj", "verb", "name", "number", "adverb")
 
 
-#: Sources of a gloss that the verb's ending or a clitic says.
-VERB, CLITIC = "^", "@"
+#: Sources of a gloss: the verb's ending, a clitic, the ending where another person could be meant.
+VERB, CLITIC, DOER = "^", "@", "^?"
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +41,7 @@ class GlossItem:
         slot: Name of the slot; else empty.
         also: Slot whose head says the glosses too; empty for none.
         gloss: The gloss; empty for a slot.
-        sources: Words of the text side, `{slot}`s, `VERB` or `CLITIC`.
+        sources: Words of the text side, `{slot}`s, `VERB`, `CLITIC` or `DOER`.
     """
 
     slot: str = ""

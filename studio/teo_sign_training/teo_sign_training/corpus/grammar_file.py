@@ -23,6 +23,7 @@ import yaml
 
 from teo_sign_training.corpus.grammar import (
     CLITIC,
+    DOER,
     LEXICAL,
     VERB,
     Example,
@@ -266,7 +267,7 @@ def _check_sides(
                 _fail(where, f"slots {sorted(names)} in 'signs', got '{slot}'")
         for source in gloss.sources:
             known = source.strip("{}") in names if source.startswith("{") else source in words
-            if not known and source not in (VERB, CLITIC):
+            if not known and source not in (VERB, CLITIC, DOER):
                 _fail(where, f"words of 'text' as sources in 'signs', got '{source}'")
 
 

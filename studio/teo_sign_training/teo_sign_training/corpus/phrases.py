@@ -23,7 +23,7 @@ class Sign:
     Attributes:
         gloss: Upper case.
         sources: The words that it stands for.
-        pending: What else will say it, once that is known: `grammar.VERB` or `CLITIC`.
+        pending: What else will say it, once that is known: `grammar.VERB`, `CLITIC` or `DOER`.
         leads: Whether it governs an infinitive and stands at the front of its predicate.
     """
 
@@ -89,11 +89,13 @@ class SaidVerb:
         word: The verb.
         shape: Its tense and auxiliaries.
         said: What it has become.
+        acts: Whether a sign beside it says whom it is done to: alone, it would say who does it.
     """
 
     word: ListedWord
     shape: Shape
     said: VerbPhrase | None = None
+    acts: bool = False
 
 
 def looked_up(value: str, features: Mapping[str, str], slots: Mapping[str, Phrase]) -> str:

@@ -17,7 +17,7 @@ from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
 
 #: Lists of words.yaml that are not of nouns.
-OTHER_LISTS = ("stressed_a", "mass_classes", "unsaid_verbs", "directed_verbs", "plans")
+OTHER_LISTS = ("stressed_a", "mass_classes", "unsaid_verbs", "directed_verbs", "person_verbs", "plans")
 
 
 def test_every_example_beside_a_rule_is_what_the_rule_makes(generator):
