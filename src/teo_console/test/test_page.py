@@ -155,6 +155,7 @@ def test_a_robot_that_is_rearmed_while_it_brakes_is_armed_when_it_is_at_rest(
     expect(page.locator("#notice")).to_be_hidden()
 
 
+@pytest.mark.slow
 def test_two_pages_see_one_robot_and_closing_one_changes_nothing(new_page: NewPage) -> None:
     one, other = new_page(), new_page(width=390, height=844)
     wait_until_ready(one)
@@ -275,6 +276,7 @@ def test_the_languages_have_the_same_words() -> None:
         assert sorted(re.findall(r"\{\w+\}", words)) == sorted(re.findall(r"\{\w+\}", english[key])), key
 
 
+@pytest.mark.slow
 def test_a_sentence_is_signed_stopped_and_the_tabs_are_seen_by_keyboard_alone(new_page: NewPage) -> None:
     page = new_page()
     wait_until_ready(page)
@@ -338,6 +340,7 @@ def test_what_did_not_come_while_the_node_was_gone_is_asked_for_again(new_page: 
     assert len(lost) == 2
 
 
+@pytest.mark.slow
 def test_a_node_that_dies_is_named_at_once(new_page: NewPage, graph: Graph) -> None:
     page = new_page()
     wait_until_ready(page)
