@@ -22,7 +22,7 @@ SENTENCES = (
     "Para que la casa sea segura",
     "Vengo por la baja",
     "había desaparecido de allí",
-    "I love my dog y mi perro es my friend",
+    "Mi perro es my best friend",
     "Estoy very tired hoy",
     "a" * 10_000,
     "Hola " + "b" * 10_000 + " casa",
@@ -53,11 +53,42 @@ def test_no_translation_repeats_or_outgrows_its_text(text: str) -> None:
         ("Vengo por la baja", {"ELLA", "ÉL"}),
         ("Ahora está acabada.", {"ÉL", "ELLA", "YO"}),
         ("actividades formativas complementarias", {"TÚ", "YO"}),
-        ("I love my dog y mi perro es my friend", {"PASADO", "YO"}),
+        ("Mi perro es my best friend", {"PASADO", "YO"}),
     ],
 )
 def test_nobody_is_named_whom_no_word_names(text: str, invented: set[str]) -> None:
     assert not invented & {*str(TRANSLATOR.translate(text)).split()}
+
+
+@pytest.mark.parametrize(
+    ("text", "acts", "acted_on"),
+    [
+        ("Me han quitado el bolso.", "ELLOS", "YO"),
+        ("La operaron ayer.", "ELLOS", "ELLA"),
+        ("Nos engañaron.", "ELLOS", "NOSOTROS"),
+        ("Mi vecino me espera.", "VECINO", "YO"),
+        ("Te escribo mañana.", "YO", "TÚ"),
+        ("No me llames.", "TÚ", "YO"),
+    ],
+)
+def test_whom_it_happens_to_does_not_seem_to_do_it(text: str, acts: str, acted_on: str) -> None:
+    glosses = str(TRANSLATOR.translate(text)).split()
+    assert glosses.index(acts) < glosses.index(acted_on)
+
+
+@pytest.mark.parametrize(
+    ("text", "said", "false"),
+    [
+        ("El libro está sobre la silla.", "ENCIMA", "DE_ACUERDO"),
+        ("El perro duerme bajo el árbol.", "DEBAJO", "BAJAR"),
+        ("El cine está entre el banco y la farmacia.", "EN_MEDIO", "ENTRAR"),
+        ("Ni mi tía ni mi abuelo conducen.", "NO", "NI"),
+        ("Hoy estoy peor que el martes.", "HOY", "ESTAR"),
+    ],
+)
+def test_a_preposition_is_no_verb_and_no_denial_is_lost(text: str, said: str, false: str) -> None:
+    glosses = str(TRANSLATOR.translate(text)).split()
+    assert said in glosses and false not in glosses
 
 
 def test_what_no_token_stands_for_is_listed() -> None:
