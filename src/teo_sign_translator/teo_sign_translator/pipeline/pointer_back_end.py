@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Back end of the pointer: asks the model once for each sentence, and makes output words of its answer.
 
-What the model leaves out is put back, but for sentences whose translation is given: the paper's may leave out
-what they like. Glosses become signs, names and numbers, with a pause where a mark falls between them.
+What the model leaves out is put back. The paper's sentences have their translations given, which leave out what
+they like and hold for themselves alone. Glosses become signs, names and numbers, with a pause where a mark falls
+between them.
 """
 
 from __future__ import annotations
@@ -164,12 +165,13 @@ def _by_sentence(clauses: Iterable[Clause]) -> list[list[Clause]]:
     return [sentence for sentence in sentences if sentence]
 
 
-def _as_given(hypotheses: Iterable[Hypothesis], given: GivenSentence | None) -> CompleteTranslation | None:
-    """The given translation, if the model says it."""
-    for hypothesis in hypotheses:
-        if given and tuple(gloss.gloss for gloss in hypothesis.glosses) == given.glosses:
-            return CompleteTranslation(hypothesis.glosses, (False,) * len(hypothesis.glosses), given=True)
-    return None
+def _as_given(hypotheses: Sequence[Hypothesis], given: GivenSentence | None) -> CompleteTranslation | None:
+    """The given translation, each gloss with what the model says of it; None where none is given."""
+    if given is None:
+        return None
+    said = {gloss.gloss: gloss for hypothesis in reversed(hypotheses) for gloss in hypothesis.glosses}
+    glosses = tuple(said.get(name, OutputGloss(name, (), 1.0, copied=False)) for name in given.glosses)
+    return CompleteTranslation(glosses, (False,) * len(glosses), given=True)
 
 
 def _asks(words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> bool:
