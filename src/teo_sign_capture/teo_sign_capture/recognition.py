@@ -342,8 +342,9 @@ def similar_signs(robot: Robot, sign: Sign, table: Path) -> tuple[SimilarSign, .
     """
     others: dict[str, Sign] = {}
     try:
-        name = robot.humanoid.name
-        signs = Lut.open(None if table == user_lut_directory(robot=name) else table, robot=name)
+        name, language = robot.humanoid.name, sign.language
+        own = table == user_lut_directory(language, name)
+        signs = Lut.open(None if own else table, language=language, robot=name)
     except LutError:  # a table that is made with its first sign
         return ()
     for gloss in signs.glosses():

@@ -122,10 +122,10 @@ def _tell_tables(context: typer.Context) -> None:
     context.obj = _tables
 
 
-def _tables(language: str = DEFAULT_LANGUAGE) -> tuple[Path, ...]:
+def _tables(language: str, robot: str) -> tuple[Path, ...]:
     """Directories in which a gloss of a language is sought, for commands that join `lut`; may be none."""
     try:
-        return Lut.open(language=language).directories
+        return Lut.open(language=language, robot=robot).directories
     except LutError:  # other tables can be looked into all the same
         return ()
 

@@ -25,6 +25,7 @@ from teo_sign_capture.cli.options import (
     Gloss,
     Hands,
     KindOption,
+    LanguageCode,
     Licence,
     Manifest,
     Notes,
@@ -42,6 +43,7 @@ from teo_sign_capture.cli.options import (
     Workers,
 )
 from teo_sign_capture.cli.reporting import JsonReporter, Reporter, TerminalReporter
+from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import user_lut_directory
 from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP
@@ -56,6 +58,7 @@ def capture(
     start: Start = None,
     end: End = None,
     robot: RobotName = DEFAULT_ROBOT,
+    language: LanguageCode = DEFAULT_LANGUAGE,
     lut: TableDirectory = None,
     replace: Replace = False,
     person: Person = None,
@@ -90,11 +93,12 @@ def capture(
     from teo_sign_capture.recordings.recording import default_cache, is_bag
 
     try:
-        _check_robot(robot)
-        table = lut or user_lut_directory(robot=robot)
+        language = _known_language(robot, language)
+        table = lut or user_lut_directory(language, robot)
         settings = Settings(
             table=table,
             robot=robot,
+            language=language,
             replace=replace,
             kind=kind,
             standing=standing,
@@ -135,11 +139,13 @@ def capture(
         raise typer.Exit(1) from error
 
 
-def _check_robot(name: str) -> None:
+def _known_language(robot: str, language: str) -> str:
+    """The language's code, if there are such a robot and language."""
     try:
-        load_humanoid(name)
-    except DescriptionError as error:
-        raise LutError(error.code, f"--robot: {error}") from error
+        load_humanoid(robot)
+        return load_language(language).code
+    except (DescriptionError, LanguageError) as error:
+        raise LutError(error.code, str(error)) from error
 
 
 def _filmed(camera: int, gloss: str, seconds: float, reporter: Reporter) -> Path:

@@ -126,9 +126,10 @@ def import_pose(
     from teo_sign_capture.entries.take import Cut
     from teo_signs.look_up_table import user_lut_directory
 
-    table = lut or user_lut_directory()
+    table = lut or user_lut_directory(language)
     settings = Settings(
         table=table,
+        language=language,
         replace=replace,
         kind=kind,
         standing=standing,

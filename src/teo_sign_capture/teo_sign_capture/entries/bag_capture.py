@@ -28,6 +28,7 @@ from teo_sign_capture.recordings.recording import (
     track_of,
 )
 from teo_sign_capture.recordings.skeleton_bag import write_skeletons
+from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import held_entry, holding_tables
 from teo_signs.sign import gloss_key
@@ -75,6 +76,7 @@ class Settings:
     Attributes:
         table: Directory of the table.
         robot: Name of the robot whose table it is.
+        language: Code of the sign language whose table it is.
         replace: Whether entries that are there already may be replaced.
         kind: Of the signs.
         standing: How well founded the forms are; None for "recorded", or "sketched" of what a program drew.
@@ -93,6 +95,7 @@ class Settings:
 
     table: Path
     robot: str = DEFAULT_ROBOT
+    language: str = DEFAULT_LANGUAGE
     replace: bool = False
     kind: Kind = "lexical"
     standing: Standing | None = None
@@ -179,7 +182,15 @@ def _captured(robot: Robot, job: CaptureJob, settings: Settings, on_progress: _S
     left_out = [f"Left out: {error.code}: {error}" for error in failed]
     origin = _origin(job, settings, recordings, left_out)
     tell("checking", 0, 1)
-    captured = make_sign(robot, job.gloss, takes, origin, kind=settings.kind, accept=settings.accept)
+    captured = make_sign(
+        robot,
+        job.gloss,
+        takes,
+        origin,
+        language=settings.language,
+        kind=settings.kind,
+        accept=settings.accept,
+    )
     similar = similar_signs(robot, captured.sign, settings.table)
     alike = filter(None, (one.warning(captured.sign.gloss) for one in similar))
     saved = Saved(
@@ -220,7 +231,9 @@ def check_free(gloss: str, settings: Settings) -> None:
         reason = error.errors(include_url=False)[0]["msg"].removeprefix("Value error, ")
         raise LutError("bad_gloss", f"--gloss: expected {reason}, got {gloss!r}") from error
     try:
-        taken = held_entry(holding_tables(settings.table, robot=settings.robot), gloss)
+        taken = held_entry(
+            holding_tables(settings.table, language=settings.language, robot=settings.robot), gloss
+        )
     except LutError as error:
         raise LutError("not_written", f"expected a place to write to, got: {error}") from error
     if taken is not None and not settings.replace and settings.trial is None:

@@ -92,6 +92,7 @@ def make_sign(
     takes: Sequence[SignTake],
     origin: Origin,
     *,
+    language: str = DEFAULT_LANGUAGE,
     kind: Kind = "lexical",
     accept: bool = False,
 ) -> Captured:
@@ -102,6 +103,7 @@ def make_sign(
         gloss: Name of the sign.
         takes: At least one.
         origin: For the provenance.
+        language: Code of its sign language.
         kind: Of the sign.
         accept: Whether a sign beyond a gate is taken all the same, one level less well founded.
 
@@ -113,7 +115,7 @@ def make_sign(
     used = [takes[index] for index in combined.used]
     sign = Sign(
         gloss=gloss_key(gloss),
-        language=DEFAULT_LANGUAGE,
+        language=language,
         robot=robot.humanoid.name,
         kind=kind,
         handedness=takes[combined.leader].span.handedness,

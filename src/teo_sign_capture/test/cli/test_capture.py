@@ -57,6 +57,17 @@ def test_a_sign_is_captured_for_another_robot(bag: Path, tmp_path: Path) -> None
     assert "unknown_robot" in run(f"capture {bag} --gloss SIGNO --robot nobody").output
 
 
+def test_a_sign_of_another_language_goes_to_that_languages_table(bag: Path, data_home: Path) -> None:
+    wanted = f"capture {bag} --gloss SIGNO --language ase --robot gr1t2"
+    result = run(f"{wanted} --no-draw --hands right --json")
+    assert result.exit_code == 0, result.output
+    assert lines(result.stdout)[0]["similar"]  # of the signs of that table
+    assert Lut.open(language="ase", robot="gr1t2")["SIGNO"].language == "ase"
+    assert (data_home / "teo" / "lut" / "ase" / "gr1t2" / "SIGNO.json").is_file()
+    assert run(wanted).output.startswith("exists: SIGNO.json")
+    assert "unknown_language" in run(f"capture {bag} --gloss SIGNO --language xxx").output
+
+
 def test_several_signs_are_listed_and_what_is_suggested_works(tmp_path: Path) -> None:
     later = [(start + 3.0, end + 3.0, place) for start, end, place in SIGN]
     bag = write_bag(tmp_path / "two.mcap", signing(moves=[*SIGN, *later], duration=6.2, rate=15.0))

@@ -13,6 +13,7 @@ from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
+from teo_common.parameters import ROBOT
 from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.output.sign_coverage import (
@@ -62,6 +63,7 @@ def coverage(
             "--lut", help="Directory of the table; your own and, beneath it, the language's without it."
         ),
     ] = None,
+    robot: Annotated[str, typer.Option(help="Name of the robot that makes the signs.")] = str(ROBOT.default),
     language: Annotated[str, typer.Option(help="Sign language, by its ISO 639-3 code.")] = DEFAULT_LANGUAGE,
     least_standing: Annotated[
         str,
@@ -81,8 +83,8 @@ def coverage(
     if (file is None) == (text is None):
         raise typer.BadParameter("expected either a file or --text")
     try:
-        # `lut` tells where a language's signs are; by itself the command knows no table.
-        told = context.obj(language) if context.obj is not None else ()
+        # `lut` tells where a robot's signs are; by itself the command knows no table.
+        told = context.obj(language, robot) if context.obj is not None else ()
         tables = (lut,) if lut is not None else tuple(told)
         if not tables:
             raise TranslationError(
