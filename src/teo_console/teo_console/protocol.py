@@ -43,7 +43,7 @@ class Request(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, tag
 
 
 class SignText(Request, frozen=True, tag="sign_text"):
-    """Have a Spanish text signed."""
+    """Have a text signed."""
 
     text: Text
 
@@ -244,9 +244,23 @@ class Situation(Struct, frozen=True, kw_only=True, tag_field="type", tag="situat
     """Pages that are open."""
 
 
+class Names(Struct, frozen=True, kw_only=True):
+    """What pages call the robot and the languages that run."""
+
+    robot: str
+    """In capitals, as people write it: "TEO"."""
+    signs: str
+    """Of the sign language, short: "LSE"."""
+    spoken: str
+    """BCP 47 tag of the language of the texts, "es": a browser knows its name in any language."""
+    example: str
+    """A text to try."""
+
+
 class Welcome(Struct, frozen=True, kw_only=True, tag_field="type", tag="welcome"):
     """The first message on a connection, and again when the joints change."""
 
+    names: Names
     joints: tuple[str, ...]
     """In the order of the numbers of binary frames; empty while none was heard."""
     robot: bool

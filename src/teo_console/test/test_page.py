@@ -276,6 +276,12 @@ def test_the_languages_have_the_same_words() -> None:
         assert sorted(re.findall(r"\{\w+\}", words)) == sorted(re.findall(r"\{\w+\}", english[key])), key
 
 
+@pytest.mark.parametrize("path", sorted((WEB / "i18n").glob("*.json")), ids=lambda path: path.name)
+def test_no_key_has_words_twice(path: Path) -> None:
+    keys = [key for key, _ in json.loads(path.read_text("utf-8"), object_pairs_hook=list)]
+    assert sorted(keys) == sorted(set(keys))
+
+
 @pytest.mark.slow
 def test_a_sentence_is_signed_stopped_and_the_tabs_are_seen_by_keyboard_alone(new_page: NewPage) -> None:
     page = new_page()

@@ -15,7 +15,8 @@ from aiohttp import web
 
 from teo_console.api.routes import all_routes
 from teo_console.api.workbench import Folders, Workbench
-from teo_console.protocol import Answer, Motion
+from teo_console.jobs.commands import Commands
+from teo_console.protocol import Answer, Motion, Names, Welcome, encode
 from teo_console.review.series import NewItem
 from teo_console.server.access import Access
 from teo_console.server.app import make_app
@@ -23,6 +24,7 @@ from teo_console.server.hub import Hub
 from teo_console.server.thread import ServerThread
 
 WEB = Path(__file__).parents[3] / "src" / "teo_console" / "web"
+NAMES = Names(robot="TEO", signs="LSE", spoken="es", example="Hola.")
 PATIENCE = 60.0  # [s] for an answer on a loaded machine
 
 
@@ -40,8 +42,9 @@ class Api:
         self.url = f"http://127.0.0.1:{self.thread.port}"
 
     def _app(self) -> web.Application:
-        self.workbench = Workbench(self.folders)
+        self.workbench = Workbench(self.folders, Commands(robot="teo", language="ssp"))
         hub = Hub(lambda asked: asyncio.sleep(0, Answer(id=asked.id, success=True)), lambda _: None)
+        hub.welcome(encode(Welcome(names=NAMES, joints=(), robot=False)))
         access = Access.for_address("127.0.0.1", frozenset())
         routes = all_routes(self.workbench)
         app = make_app(web_folder=WEB, access=access, hub=hub, urdf=lambda: "", routes=routes)

@@ -13,7 +13,6 @@ from msgspec import Meta, Struct
 
 from teo_console.api.workbench import WithGloss, Workbench
 from teo_console.errors import ConsoleError
-from teo_console.jobs import commands
 from teo_console.server.app import answering, body
 
 # A page of a book [characters]: it is translated sentence by sentence, some 50 ms each.
@@ -39,7 +38,9 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
         told: dict[str, Any] = {"film": f"/api/films/{path.name}", "job": None}
         if not path.exists():
             films.mkdir(parents=True, exist_ok=True)
-            told["job"] = workbench.jobs.told(workbench.jobs.submit(commands.film(sign.gloss, path)))
+            told["job"] = workbench.jobs.told(
+                workbench.jobs.submit(workbench.commands.film(sign.gloss, path))
+            )
         return told
 
     async def film(request: web.Request) -> Any:
@@ -53,7 +54,7 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
 
     async def coverage(request: web.Request) -> Any:
         wanted = await body(request, _WantCoverage)
-        return workbench.jobs.told(workbench.jobs.submit(commands.coverage(wanted.text)))
+        return workbench.jobs.told(workbench.jobs.submit(workbench.commands.coverage(wanted.text)))
 
     return [
         web.get("/api/signs", answering(signs)),

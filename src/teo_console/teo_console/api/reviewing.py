@@ -16,7 +16,6 @@ from msgspec import Meta, Struct
 
 from teo_console.api.workbench import Preparation, Workbench, gloss_key
 from teo_console.errors import ConsoleError
-from teo_console.jobs import commands
 from teo_console.protocol import Gloss, Motion
 from teo_console.review.report import as_csv, as_json, report
 from teo_console.review.series import CHOICES, Flag, NewItem, Rating, SeriesKind, offered
@@ -111,7 +110,7 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
         with tempfile.TemporaryDirectory(prefix="teo-reviews-") as folder:
             path = Path(folder) / "reviews.json"
             path.write_bytes(as_json(store.answers()))
-            job = await workbench.jobs.run(commands.enter_reviews(path))
+            job = await workbench.jobs.run(workbench.commands.enter_reviews(path))
         workbench.signs.changed()
         return job.result
 
@@ -152,10 +151,10 @@ async def _enter_series(workbench: Workbench, wanted: _NewSeries, told: Preparat
         )
         told.done += 1
     for text in wanted.sentences:
-        job = await workbench.jobs.run(commands.translate(text))
+        job = await workbench.jobs.run(workbench.commands.translate(text))
         mark = text.strip()[-1:]
         motion = await _planned(workbench, job.output.strip() + (mark if mark in "?!" else ""))
-        language = next(iter(listed.values())).language
+        language = workbench.commands.language
         items.append(NewItem(kind="sentence", meaning=text, language=language, motion_hash="", motion=motion))
         told.done += 1
     return workbench.reviews.add_series(wanted.kind, wanted.title, items, seed)
@@ -165,7 +164,7 @@ async def _planned(workbench: Workbench, glosses: str) -> Motion:
     """The motion of a sentence in the printed form, as the robot would make it."""
     with tempfile.TemporaryDirectory(prefix="teo-plan-") as folder:
         path = Path(folder) / "plan.csv"
-        await workbench.jobs.run(commands.plan(glosses, path))
+        await workbench.jobs.run(workbench.commands.plan(glosses, path))
         with path.open(encoding="utf-8", newline="") as file:
             header, *rows = csv.reader(file)
     kept = [tuple(map(float, row)) for row in (*rows[::_EVERY], rows[-1])]

@@ -14,7 +14,6 @@ from msgspec import Meta, Struct
 
 from teo_console.api.workbench import WithGloss, Workbench, gloss_key
 from teo_console.errors import ConsoleError
-from teo_console.jobs import commands
 from teo_console.jobs.commands import Hands
 from teo_console.jobs.recordings import Recording
 from teo_console.protocol import Gloss
@@ -55,7 +54,7 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
 
     async def attempt(request: web.Request) -> Any:
         recording, wanted = _of(request), await body(request, _Try)
-        command = commands.capture(
+        command = workbench.commands.capture(
             recording.path,
             _cache(recording),
             gloss=gloss_key(wanted.gloss),
@@ -82,7 +81,7 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
                 "no_consent",
                 "expected that the person in the film agrees to the terms: without it nothing is kept",
             )
-        command = commands.capture(
+        command = workbench.commands.capture(
             recording.path,
             _cache(recording),
             gloss=gloss_key(wanted.gloss),
@@ -101,7 +100,7 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
 
     async def recognise(request: web.Request) -> Any:
         recording, wanted = _of(request), await body(request, WithGloss)
-        command = commands.recognise(recording.path, _cache(recording), gloss_key(wanted.gloss))
+        command = workbench.commands.recognise(recording.path, _cache(recording), gloss_key(wanted.gloss))
         return workbench.jobs.told(workbench.jobs.submit(command))
 
     def _of(request: web.Request) -> Recording:

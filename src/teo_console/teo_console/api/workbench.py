@@ -17,7 +17,7 @@ import msgspec
 from msgspec import Struct
 
 from teo_console.errors import ConsoleError
-from teo_console.jobs import commands
+from teo_console.jobs.commands import Commands
 from teo_console.jobs.queue import JobQueue
 from teo_console.jobs.recordings import Recordings
 from teo_console.protocol import Gloss
@@ -57,13 +57,15 @@ def gloss_key(gloss: str) -> str:
 class SignList:
     """Lists the table when it is asked for."""
 
-    def __init__(self, lookups: JobQueue, jobs: JobQueue) -> None:
+    def __init__(self, commands: Commands, lookups: JobQueue, jobs: JobQueue) -> None:
         """List nothing yet.
 
         Args:
-            lookups: Lists the table.
+            commands: On the table.
+            lookups: Lists it.
             jobs: Compares all of its signs, which takes longer.
         """
+        self._commands = commands
         self._lookups = lookups
         self._jobs = jobs
         self._signs: dict[str, ListedSign] = {}
@@ -78,7 +80,7 @@ class SignList:
             ConsoleError: The command failed.
         """
         if time.monotonic() - self._listed > _FRESH:
-            job = await self._lookups.run(commands.list_signs())
+            job = await self._lookups.run(self._commands.list_signs())
             listed = msgspec.convert(job.result["signs"], list[ListedSign])
             self._signs = {sign.gloss: sign for sign in listed}
             self._listed = time.monotonic()
@@ -105,7 +107,7 @@ class SignList:
         """
         motions = frozenset(sign.motion_hash for sign in (await self.signs()).values())
         if motions != self._nearest_of:
-            job = await self._jobs.run(commands.nearest_signs(CHOICES - 1))
+            job = await self._jobs.run(self._commands.nearest_signs(CHOICES - 1))
             found: dict[str, list[dict[str, Any]]] = job.result
             self._nearest = {name: [other["gloss"] for other in near] for name, near in found.items()}
             self._nearest_of = motions
@@ -167,7 +169,7 @@ class Preparation:
 class Workbench:
     """Made and used in the server's event loop."""
 
-    def __init__(self, folders: Folders) -> None:
+    def __init__(self, folders: Folders, commands: Commands) -> None:
         """Open what is kept.
 
         Raises:
@@ -175,6 +177,7 @@ class Workbench:
             OSError: A folder cannot be made.
         """
         self.folders = folders
+        self.commands = commands
         self.jobs = JobQueue()
         # What takes a second or two, and what nobody is told of, waits for no film that is looked through.
         self.lookups = JobQueue()
@@ -182,7 +185,7 @@ class Workbench:
         # One console of a user each: several do not delete each other's recordings.
         self.recordings = Recordings(folders.cache / f"{_RECORDINGS}{os.getpid()}", self.lookups)
         self.reviews = ReviewStore(folders.reviews)
-        self.signs = SignList(self.lookups, self.jobs)
+        self.signs = SignList(commands, self.lookups, self.jobs)
         self.preparations: dict[str, Preparation] = {}
         self._tasks: set[asyncio.Task[None]] = set()
 

@@ -16,22 +16,25 @@ from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
+from teo_common.errors import CodedError
 from teo_common.installed_packages import package_path
 from teo_common.node_process import run_node
 from teo_common.parameters import declare_parameters
 from teo_console.api.routes import all_routes
 from teo_console.api.workbench import Folders, Workbench
-from teo_console.errors import ConsoleError
+from teo_console.jobs.commands import Commands
 from teo_console.node import messages
 from teo_console.node.observer import Observer
 from teo_console.node.parameters import PARAMETERS
 from teo_console.node.robot_client import RobotClient
-from teo_console.protocol import Situation, Welcome, encode, encode_pose
+from teo_console.protocol import Names, Situation, Welcome, encode, encode_pose
 from teo_console.server.access import LOOPBACK_NAMES, Access
 from teo_console.server.app import make_app
 from teo_console.server.hub import Hub
 from teo_console.server.thread import Bridge, ServerThread
 from teo_console.situation import SharedSituation
+from teo_description.humanoid import load_humanoid
+from teo_sign_languages import load_language
 
 # How often pages are told what has changed [Hz]: often enough that nothing seems late.
 _SITUATION_RATE = 10.0
@@ -53,9 +56,20 @@ class ConsoleNode(Node):
 
         Raises:
             ConsoleError: The page cannot be served: the code says why.
+            DescriptionError: There is no such robot.
+            LanguageError: There is no such language.
         """
         super().__init__("console", context=context, parameter_overrides=list(parameter_overrides))
         declare_parameters(self, PARAMETERS)
+        robot = load_humanoid(self._value("robot")).name
+        language = load_language(self._value("language"))
+        self._commands = Commands(robot=robot, language=language.code)
+        self._names = Names(
+            robot=robot.upper(),
+            signs=language.names.short,
+            spoken=language.spoken.code,
+            example=language.sentences[0],
+        )
         self._situation = SharedSituation()
         self._client = RobotClient(self, self._situation)
         self._observer = Observer(self, self._situation, now=self._now, changed=self._client.look_at_queue)
@@ -94,7 +108,7 @@ class ConsoleNode(Node):
         return float(self.get_clock().now().nanoseconds) * 1e-9
 
     def _make_app(self) -> web.Application:
-        workbench = Workbench(Folders.of_user())
+        workbench = Workbench(Folders.of_user(), self._commands)
 
         async def clear_up(_: web.Application) -> None:
             await workbench.close()
@@ -119,8 +133,8 @@ class ConsoleNode(Node):
 
     def _send_welcome(self) -> None:
         self._robot_known = bool(self._observer.urdf)
-        welcome = encode(Welcome(joints=self._joints, robot=self._robot_known))
-        self._server.call(self._hub.welcome, welcome)
+        welcome = Welcome(names=self._names, joints=self._joints, robot=self._robot_known)
+        self._server.call(self._hub.welcome, encode(welcome))
 
     def _send_pose(self) -> None:
         state = self._observer.take_joint_state()
@@ -175,5 +189,5 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Serve the page until told to end."""
     try:
         run_node(ConsoleNode, arguments, PARAMETERS)
-    except ConsoleError as error:
+    except CodedError as error:
         sys.exit(f"console: [{error.code}] {error}")

@@ -4,9 +4,17 @@
 
 from __future__ import annotations
 
-from teo_common.parameters import ParameterRow
+from teo_common.parameters import ROBOT, ParameterRow
+from teo_sign_languages import DEFAULT_LANGUAGE
 
 PARAMETERS = (
+    ROBOT,
+    ParameterRow(
+        name="language",
+        default=DEFAULT_LANGUAGE,
+        description="Sign language, by its ISO 639-3 code: the page names it, and works on its signs.",
+        read_only=True,
+    ),
     ParameterRow(
         name="address",
         default="127.0.0.1",

@@ -6,12 +6,20 @@ import { settings } from "./settings.js";
 
 let words = {};
 
-/** Loads a language's words and writes them wherever the page has them. */
-export async function speak(language) {
+/**
+ * Loads a language's words and writes them wherever the page has them.
+ * @param {string} language
+ * @param {?Object} names Of the welcome: what `{robot}`, `{signs}` and `{spoken}` stand for; without, words of no name do.
+ */
+export async function speak(language, names = null) {
   // Those of the frame and Watch, and those of the other tabs.
   const files = [`/i18n/${language}.json`, `/i18n/${language}.tabs.json`];
   const loaded = await Promise.all(files.map(async (file) => (await fetch(file)).json()));
   words = Object.assign({}, ...loaded);
+  if (names) {
+    const spoken = new Intl.DisplayNames([language], { type: "language" }).of(names.spoken);
+    Object.assign(words, { "name.robot": names.robot, "name.signs": names.signs, "name.spoken": spoken });
+  }
   settings.set("language", language);
   document.documentElement.lang = language;
   document.title = t("title");
@@ -27,7 +35,7 @@ export async function speak(language) {
  * @param {Object<string, string|number>} values For `{name}` in the words.
  */
 export function t(key, values = {}) {
-  return (words[key] ?? key).replace(/\{(\w+)\}/g, (whole, name) => values[name] ?? whole);
+  return (words[key] ?? key).replace(/\{(\w+)\}/g, (whole, name) => values[name] ?? words[`name.${name}`] ?? whole);
 }
 
 /** Whether there are words of that key. */

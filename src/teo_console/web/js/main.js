@@ -13,12 +13,14 @@ import { refusalText, statusOf } from "./status.js";
 // Each tab is a module with `mount(element, context)`, which returns what is to be done when it is left.
 const TABS = ["watch", "dictionary", "teach", "review", "practise"];
 const NOTICE_TIME = 6000; // [ms], long enough to read two lines
+const NAMES_TIME = 1000; // [ms] for the welcome, which tells names; later the page says without them what is wrong
 
 const element = (id) => document.getElementById(id);
 const socket = new Socket();
 const live = new Live(socket);
 let leave = () => {};
 let noticed = 0;
+let named = ""; // the names in what the page says, once it says anything
 let rearming = false; // asked for and not answered: while the robot brakes, the node waits for it
 
 /** Says something once, for everybody: seen and read aloud. */
@@ -104,6 +106,7 @@ async function show() {
 }
 
 function showStatus() {
+  if (!named) return; // there are no words yet
   const { text, tone } = statusOf(socket.connected, socket.situation);
   const status = element("status");
   if (status.textContent !== text) status.textContent = text; // else it would be read aloud again
@@ -128,7 +131,9 @@ async function rearm() {
 }
 
 async function setLanguage(language) {
-  await speak(language);
+  const { names } = socket.welcome;
+  await speak(language, names);
+  named = JSON.stringify(names);
   const other = language === "es" ? "en" : "es";
   element("language").textContent = other === "en" ? "English" : "Español";
   element("language").lang = other;
@@ -151,5 +156,10 @@ socket.addEventListener("refused", ({ detail }) => {
   notify(refusalText(detail.code));
 });
 
+/** Says all anew if the names are others: the first welcome came, or another console answers. */
+function sayNames() {
+  if (JSON.stringify(socket.welcome.names) !== named) setLanguage(settings.get("language"));
+}
+socket.addEventListener("welcome", sayNames);
+setTimeout(sayNames, NAMES_TIME);
 socket.connect();
-await setLanguage(settings.get("language"));

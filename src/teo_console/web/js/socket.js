@@ -12,7 +12,7 @@ export const RECONNECT = 1000;
 /** Events: "situation", "welcome", "pose" (detail: what came), "connection" (detail: whether it stands). */
 export class Socket extends EventTarget {
   situation = null;
-  welcome = { joints: [], robot: false };
+  welcome = { names: null, joints: [], robot: false };
   connected = false;
   #socket = null;
   #waiting = new Map();

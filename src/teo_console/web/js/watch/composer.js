@@ -9,9 +9,10 @@ const Recognition = window.SpeechRecognition ?? window.webkitSpeechRecognition;
 const LONGEST = 2000; // characters, as the protocol takes them
 
 export function composer({ socket, attempt, notify, t }) {
+  const { names } = socket.welcome;
   const text = h("input", {
-    type: "text", id: "text", autocomplete: "off", maxlength: String(LONGEST), lang: "es", spellcheck: true,
-    placeholder: t("compose.example"),
+    type: "text", id: "text", autocomplete: "off", maxlength: String(LONGEST), spellcheck: true,
+    lang: names?.spoken ?? "", placeholder: names?.example ?? "",
   });
   const form = h(
     "form", { class: "card composer", on: { submit } },
@@ -40,7 +41,7 @@ function microphone(text, notify, t) {
       return;
     }
     listening = new Recognition();
-    listening.lang = "es-ES";
+    listening.lang = text.lang;
     listening.addEventListener("result", ({ results }) => {
       text.value = results[0][0].transcript.slice(0, LONGEST);
       text.focus();

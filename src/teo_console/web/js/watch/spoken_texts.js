@@ -9,7 +9,7 @@ export function spokenTexts({ socket, attempt, t }, listening) {
   let shown = "";
 
   function item({ id, text }) {
-    const field = h("input", { type: "text", value: text, id: `spoken-${id}`, lang: "es" });
+    const field = h("input", { type: "text", value: text, id: `spoken-${id}`, lang: socket.welcome.names?.spoken ?? "" });
     field.value = text;
     const sign = () => attempt(() => socket.ask("confirm_spoken", { spoken: id, text: field.value.trim() || text }));
     const discard = () => attempt(() => socket.ask("discard_spoken", { spoken: id }));
