@@ -7,15 +7,17 @@ import {
 } from "../vendor/robot_drawing.js";
 import { h } from "./dom.js";
 
-// Presets in the robot's axes [m]: x forward, y to its left, z up, from the base; `view` is the vertical opening [deg].
+// Presets in the robot's axes [m]: x forward, y to its left, z up, from the base; `view` is the vertical opening [deg],
+// `across` the least horizontal one where that is another: what arms span.
 // Heights are those of a robot whose head ends at `TOP`; others have theirs in proportion. `hand` is relative to the
 // hand that moves. The signer's view is from the eyes.
 const CAMERAS = {
-  front: { from: [1.85, 0.0, 0.55], at: [0.0, 0.0, 0.47], view: 36 },
+  front: { from: [1.85, 0.0, 0.5], at: [0.0, 0.0, 0.51], view: 32, across: 36 }, // from the hips to the fingers of a raised letter
   hand: { from: [0.46, -0.08, 0.04], at: [0, 0, 0], view: 36 },
   signer: { from: [0.1, 0.0, 0.76], at: [0.5, 0.0, 0.64], view: 85 },
 };
 const TOP = 0.8087; // TEO
+const DARKER = 0.45; // the light of what is no hand: hands are to stand out from the trunk
 const FINGERS = 3; // links on which so many chains of joints hang, and none with as many, are hands
 const WIDEST_VIEW = 90; // [deg], to which a narrow picture may open
 // A hand that moved this much more than the other is the one that signs [m], within about a second of frames.
@@ -110,7 +112,9 @@ class RobotView {
       this.scene.add(this.#robot);
       this.#robot.updateMatrixWorld(true);
       this.#height = topOf(this.#robot) / TOP;
-      this.#hand = new HandThatSigns(handsOf(this.#robot));
+      const hands = handsOf(this.#robot);
+      darken(this.#robot, Object.values(hands).map((link) => link.parent.parent));
+      this.#hand = new HandThatSigns(hands);
       this.camera(this.#preset);
       this.empty.hidden = true;
       this.#dirty = true;
@@ -232,8 +236,8 @@ class RobotView {
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.eye.aspect = clientWidth / clientHeight;
     // A narrow picture shows as much of the arms' span as a wide one.
-    const { view } = CAMERAS[this.#preset];
-    this.eye.fov = this.eye.aspect < 1 ? Math.min(view / this.eye.aspect, WIDEST_VIEW) : view;
+    const { view, across = view } = CAMERAS[this.#preset];
+    this.eye.fov = Math.min(Math.max(view, across / this.eye.aspect), WIDEST_VIEW);
     this.eye.updateProjectionMatrix();
     this.#dirty = true;
   }
@@ -244,6 +248,15 @@ function lighten(robot) {
   const ball = new SphereGeometry(1, 20, 14);
   robot.traverse((part) => {
     if (part.geometry?.type === "SphereGeometry") part.geometry = ball;
+  });
+}
+
+/** Darkens all of a robot but its hands. */
+function darken(robot, hands) {
+  robot.traverse((part) => {
+    if (!part.material || hands.some((hand) => within(part, hand))) return;
+    part.material = part.material.clone(); // hands may share it
+    part.material.color.multiplyScalar(DARKER);
   });
 }
 
