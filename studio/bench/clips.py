@@ -96,7 +96,7 @@ def _performed(robot: Robot, draw: Draw, most: int) -> Iterator[_Clip]:
 def _letters(robot: Robot, most: int) -> Iterator[_Clip]:
     clips = Path(str(resources.files("spoken_to_signed"))) / "assets" / "fingerspelling_lexicon" / "ssp"
     with tempfile.TemporaryDirectory() as folder:
-        # What is beyond a gate is accepted, so that its figures count.
+        # What is beyond a gate is accepted as far as it can be, so that its figures count.
         settings = Settings(
             table=Path(folder) / "letters", cache=Path(folder) / "cache", kind="letter", accept=True
         )

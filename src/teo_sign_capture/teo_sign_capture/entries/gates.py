@@ -1,15 +1,17 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""What a captured sign must keep to be taken without asking: gates over its figures, each with what to do.
+"""What a captured sign must keep to: gates over its figures, each with two bounds and with what to do.
 
-A sign beyond a gate is refused, or, where somebody who has looked at it accepts it, written as one level less
-well founded with the reasons in its notes.
+Up to the first bound a sign is taken. Between both, whoever has looked at it decides: it is refused with the
+moment at which it is worst, or, accepted, written as one level less well founded with the reasons in its
+notes. Beyond the second it is another sign, or none, and nobody can accept it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import NamedTuple
 
 from teo_signs.errors import LutError
@@ -17,25 +19,31 @@ from teo_signs.sign_schema import STANDINGS, Standing
 
 
 class _Gate(NamedTuple):
-    """The most that a figure of an entry's quality may be."""
+    """The most that a figure of an entry's quality may be: unasked, and with a person's consent."""
 
     code: str
     figure: str
     most: float
+    most_accepted: float
     unit: str
     expected: str
     remedy: str
 
 
-# The most of each figure. Why these: a fifth of the frames filled in is a beat of a repeated sign that nobody
-# saw; 45 deg is half-way to the palm's next cardinal direction, at which signs differ; at a sixth of the pace
-# a stroke of half a second lasts three, and reads as several; of a sign whose major place is wrong in a tenth
-# of the stroke the wrong place is held long enough to be read; 50 mm is from chin to nose.
+# The most of each figure, unasked: a fifth of the frames filled in is a beat of a repeated sign that nobody
+# saw; 45 deg is half-way to the palm's next cardinal direction, at which signs differ; 50 mm is from chin to
+# nose; of a sign whose major place is wrong in a tenth of the stroke the wrong place is held long enough to
+# be read; at a sixth of the pace a stroke of half a second lasts three, and reads as several.
+# And with consent: of a hand that is lost in half of the frames more is guessed than seen; at 90 deg the palm
+# faces the next cardinal direction, which is another sign's; 100 mm is from chin to eyes, so that a touch is
+# at no place near its own; in half of the stroke the wrong place is the sign's place; at a tenth of the pace
+# a mere touch of 0.3 s lasts 3 s, as long as the longest signs.
 _GATES = (
     _Gate(
         "much_lost",
         "lost_percent",
         20.0,
+        50.0,
         " %",
         "frames in which a hand that signs is lost",
         "record it again with both hands in the picture, neither behind the other for long, in good light "
@@ -45,6 +53,7 @@ _GATES = (
         "palm_off",
         "palm_error_p95_deg",
         45.0,
+        90.0,
         " deg",
         "a palm's error",
         "show it with a straighter wrist, or cut the way up and down off with --start and --end",
@@ -53,6 +62,7 @@ _GATES = (
         "contact_off",
         "contact_error_p95_mm",
         50.0,
+        100.0,
         " mm",
         "a contact's error",
         "show the touch before the body, not beside or behind it",
@@ -61,6 +71,7 @@ _GATES = (
         "wrong_place",
         "major_place_wrong",
         0.10,
+        0.5,
         " of the stroke",
         "a major place that differs from the person's in",
         "show it farther before the body and nearer to the middle, where TEO's arms reach",
@@ -69,14 +80,15 @@ _GATES = (
         "too_slow",
         "stretch_times",
         6.0,
+        10.0,
         " times",
         "a stretch",
         "show it slower and without a tremble, or record it nearer to the camera or at a higher rate of "
         "images",
     ),
 )
-# [s] A shorter stroke is a piece of one: four frames of a hand's beat at 15 Hz.
-_LEAST_DURATION = 0.25
+# [s] A shorter stroke is a piece of one: four frames of a hand's beat at 15 Hz. Two tell no movement.
+_LEAST_DURATION, _LEAST_ACCEPTED_DURATION = 0.25, 0.125
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -87,14 +99,18 @@ class Verdict:
         code: Stable reason of a refusal: "much_lost", "palm_off", "contact_off", "wrong_place", "too_slow",
             "too_short" or "no_rest".
         passed: Whether it keeps to the gate.
+        acceptable: Whether a person may take it all the same.
         message: What was expected and what came.
         remedy: What to do where it does not.
+        at: When in the recording it is worst [s]; None where no moment is.
     """
 
     code: str
     passed: bool
+    acceptable: bool
     message: str
     remedy: str
+    at: float | None = None
 
 
 class RefusedError(LutError):
@@ -114,7 +130,13 @@ class RefusedError(LutError):
         return RefusedError, (self.code, str(self), self.verdicts)
 
 
-def judge(quality: Mapping[str, float], *, duration: float, has_rest: bool) -> tuple[Verdict, ...]:
+def judge(
+    quality: Mapping[str, float],
+    *,
+    duration: float,
+    has_rest: bool,
+    worst: Mapping[str, float] = MappingProxyType({}),
+) -> tuple[Verdict, ...]:
     """How a captured sign stands at every gate.
 
     Args:
@@ -122,14 +144,18 @@ def judge(quality: Mapping[str, float], *, duration: float, has_rest: bool) -> t
         duration: Of the stroke, as the person made it [s].
         has_rest: Whether the hands were seen at rest before or after it, or somebody chose where it begins or
             ends.
+        worst: When in the recording each figure is worst, as far as it is known [s].
     """
     figures = [
         Verdict(
             code=gate.code,
             passed=quality[gate.figure] <= gate.most,
+            acceptable=quality[gate.figure] <= gate.most_accepted,
             message=f"expected {gate.expected} of at most {gate.most:g}{gate.unit}, got "
-            f"{quality[gate.figure]:g}{gate.unit}",
+            f"{quality[gate.figure]:g}{gate.unit}"
+            + (f", worst at {worst[gate.figure]:.2f} s" if gate.figure in worst else ""),
             remedy=gate.remedy,
+            at=worst.get(gate.figure),
         )
         for gate in _GATES
         if gate.figure in quality
@@ -137,6 +163,7 @@ def judge(quality: Mapping[str, float], *, duration: float, has_rest: bool) -> t
     length = Verdict(
         code="too_short",
         passed=duration >= _LEAST_DURATION,
+        acceptable=duration >= _LEAST_ACCEPTED_DURATION,
         message=f"expected a stroke of {_LEAST_DURATION:g} s or more, got {duration:.2f} s",
         remedy="let the hands rest before and after it, or say where it is with --start and --end",
     )
@@ -144,6 +171,7 @@ def judge(quality: Mapping[str, float], *, duration: float, has_rest: bool) -> t
     rest = Verdict(
         code="no_rest",
         passed=has_rest,
+        acceptable=True,
         message=f"expected hands at rest before or after the sign, got {got}",
         remedy="record it from rest to rest, or say with --start and --end where the sign is",
     )
@@ -151,7 +179,7 @@ def judge(quality: Mapping[str, float], *, duration: float, has_rest: bool) -> t
 
 
 def most_of(figure: str) -> float | None:
-    """The most that a figure of an entry's quality may be; None of one that no gate looks at."""
+    """The most that a figure of an entry's quality may be unasked; None of one that no gate looks at."""
     return next((gate.most for gate in _GATES if gate.figure == figure), None)
 
 
@@ -166,13 +194,19 @@ def accepted_standing(
     """How well founded a sign is after what speaks against it: as before, or one level lower if accepted.
 
     Raises:
-        RefusedError: The first objection's code and all their messages, if the sign is not accepted.
+        RefusedError: The first objection's code and all their messages, if the sign is not accepted or cannot
+            be; what nobody can accept comes first.
     """
-    against = objections(verdicts)
+    against = sorted(objections(verdicts), key=lambda objection: objection.acceptable)
     if not against:
         return standing
-    if not accept:
-        reasons = "; ".join(f"{objection.message}: {objection.remedy}" for objection in against)
-        message = f"{gloss}: {reasons}. --accept takes it as it is, one level of evidence lower"
-        raise RefusedError(against[0].code, message, verdicts)
-    return STANDINGS[min(STANDINGS.index(standing) + 1, len(STANDINGS) - 1)]
+    acceptable = against[0].acceptable
+    if accept and acceptable:
+        return STANDINGS[min(STANDINGS.index(standing) + 1, len(STANDINGS) - 1)]
+    reasons = "; ".join(f"{objection.message}: {objection.remedy}" for objection in against)
+    choice = (
+        "--accept takes it as it is, one level of evidence lower"
+        if acceptable
+        else f"{against[0].code} is so far off that --accept does not take it either"
+    )
+    raise RefusedError(against[0].code, f"{gloss}: {reasons}. {choice}", verdicts)

@@ -130,7 +130,8 @@ def make_sign(
     quality = _quality(robot, used, sign, playback, away) | {"takes_count": float(len(takes))}
     # A letter is a posture that is held: clips of the alphabet begin and end with the hand raised.
     has_rest = kind == "letter" or any(take.has_rest for take in used)
-    verdicts = judge(quality, duration=sign.duration, has_rest=has_rest)
+    worst = _worst_moments(takes[combined.leader], playback.slowest / sign.duration)
+    verdicts = judge(quality, duration=sign.duration, has_rest=has_rest, worst=worst)
     standing = accepted_standing(sign.gloss, origin.standing, verdicts, accept=accept)
     provenance = _accepted(sign.provenance, standing, objections(verdicts))
     sign = replace(sign, quality=quality, provenance=provenance)
@@ -238,6 +239,31 @@ def _contact_figure(takes: Sequence[SignTake]) -> dict[str, float]:
     return {"contact_error_p95_mm": 1000.0 * float(np.mean([np.percentile(e, _SHARE) for e in touching]))}
 
 
+def _worst_moments(take: SignTake, slowest: float) -> dict[str, float]:
+    """When in a take's recording figures are worst [s].
+
+    Args:
+        take: The take.
+        slowest: Share of the stroke after which TEO is slowest [1].
+    """
+    motion = take.motion
+    place = np.nan_to_num(motion.place_error)
+    frames = {
+        "palm_error_p95_deg": np.nan_to_num(motion.palm_error),
+        "contact_error_p95_mm": np.where(motion.contact > _TOUCHING, place, 0.0),
+        "major_place_wrong": np.where(motion.wrong_place > 0.0, place, 0.0),
+    }
+    found = {
+        name: take.span.start + float(motion.times[errors.max(axis=1).argmax()])
+        for name, errors in frames.items()
+        if errors.any()
+    }
+    if take.gaps:
+        longest = max(take.gaps, key=lambda gap: gap.end - gap.start)
+        found["lost_percent"] = (longest.start + longest.end) / 2.0
+    return found | {"stretch_times": take.span.start + slowest * take.span.duration}
+
+
 _KINDS = {"lexical": TokenKind.LEXICAL, "letter": TokenKind.LETTER, "number": TokenKind.NUMBER}
 # The planner passes knots exactly: every so often [s] it is looked at, and within so much it is at one [rad].
 # A joint is no faster than 1 rad/s.
@@ -259,11 +285,13 @@ class Playback:
         path_error: How far the played path is from the motion that was captured, worst frame, of each of the
             sign's joints [rad]. Shape (m,).
         clearance: Smallest distance between parts of the robot [m].
+        slowest: Time of the sign at which the plan takes longest for what was recorded [s].
     """
 
     stretch: float
     path_error: Array
     clearance: float
+    slowest: float
 
 
 def play(robot: Robot, sign: Sign, times: Array, positions: Array) -> Playback:
@@ -289,10 +317,14 @@ def play(robot: Robot, sign: Sign, times: Array, positions: Array) -> Playback:
     except PlanError as error:
         raise LutError(error.code, f"{sign.gloss}: it cannot be signed: {error}") from error
     _check_limits(robot, sign.gloss, plan)
+    columns = [plan.names.index(joint) for joint in sign.joints]
+    waypoints = _waypoint_times(sign, plan, columns)
+    slowest = int(np.argmax(np.diff(waypoints) / np.diff(sign.times)))
     return Playback(
         stretch=plan.timings[0].stretch,
-        path_error=_path_error(robot, sign, plan, times, positions),
+        path_error=_path_error(robot, sign, plan, waypoints, times, positions),
         clearance=_clearance(robot, sign.gloss, plan),
+        slowest=float(sign.times[slowest : slowest + 2].mean()),
     )
 
 
@@ -329,10 +361,11 @@ def _clearance(robot: Robot, gloss: str, plan: Plan) -> float:
     return least
 
 
-def _path_error(robot: Robot, sign: Sign, plan: Plan, times: Array, positions: Array) -> Array:
+def _path_error(
+    robot: Robot, sign: Sign, plan: Plan, waypoints: list[float], times: Array, positions: Array
+) -> Array:
     """Distance of every captured frame to the path played between the knots around it [rad]. Shape (m,)."""
     columns = [plan.names.index(joint) for joint in sign.joints]
-    waypoints = _waypoint_times(sign, plan, columns)
     worst = np.zeros(len(sign.joints))
     for knot, (begin, end) in enumerate(pairwise(waypoints)):
         between = (times >= sign.times[knot] - 1e-9) & (times <= sign.times[knot + 1] + 1e-9)

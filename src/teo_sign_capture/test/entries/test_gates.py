@@ -65,6 +65,59 @@ def test_a_sign_just_beyond_a_limit_is_refused_with_the_figure_and_the_limit(
     assert found.remedy
 
 
+@pytest.mark.parametrize(
+    ("figure", "accepted", "never"),
+    [
+        ("lost_percent", 50.0, 51.0),
+        ("palm_error_p95_deg", 90.0, 91.0),
+        ("contact_error_p95_mm", 100.0, 101.0),
+        ("major_place_wrong", 0.5, 0.51),
+        ("stretch_times", 10.0, 10.1),
+    ],
+)
+def test_a_person_decides_near_a_limit_and_nobody_far_beyond_it(
+    figure: str, accepted: float, never: float
+) -> None:
+    near = judge(GOOD | {figure: accepted}, duration=1.0, has_rest=True)
+    with pytest.raises(RefusedError, match="--accept takes it as it is"):
+        accepted_standing("X", "recorded", near, accept=False)
+    assert accepted_standing("X", "recorded", near, accept=True) == "measured"
+    # What a person may accept comes first among the gates, but does not give the reason.
+    far = judge(GOOD | {"lost_percent": 21.0, figure: never}, duration=1.0, has_rest=True)
+    for accept in (False, True):
+        with pytest.raises(RefusedError, match="--accept does not take it either") as caught:
+            accepted_standing("X", "recorded", far, accept=accept)
+        assert next(gate.code for gate in far if not gate.acceptable) == caught.value.code
+
+
+def test_half_of_a_beat_is_accepted_by_nobody() -> None:
+    with pytest.raises(RefusedError, match="does not take it either"):
+        accepted_standing("X", "recorded", judge({}, duration=0.1, has_rest=True), accept=True)
+
+
+def test_an_objection_names_the_second_of_the_recording_at_which_it_is_worst(
+    robot: Robot, take: SignTake
+) -> None:
+    turned = np.full(take.motion.palm_error.shape, [0.2, np.nan])
+    turned[3:6, 0] = np.radians([70.0, 80.0, 70.0])
+    with pytest.raises(RefusedError) as caught:
+        make_sign(robot, "SIGNO", [replace(take, motion=replace(take.motion, palm_error=turned))], ORIGIN)
+    (found,) = objections(caught.value.verdicts)
+    assert found.at == pytest.approx(take.span.start + take.motion.times[4])
+    assert f"worst at {found.at:.2f} s" in str(caught.value)
+
+
+def test_what_is_too_fast_is_named_by_its_moment(robot: Robot) -> None:
+    """Fingers that flutter for a third of a second in a hand that moves slowly."""
+    times = np.arange(0.0, 4.2, 1.0 / 30.0)
+    wrist = path(times, REST, [(0.5, 1.1, OUT), (1.2, 2.9, (0.40, -0.25, -0.02)), (3.0, 3.6, REST)])
+    beats = 0.5 - 0.5 * np.cos(2.0 * np.pi * 6.0 * (times - 2.0))
+    track = make_track(times, wrist, bend=np.where((times > 2.0) & (times < 2.34), beats, 0.0), noise=0.002)
+    verdicts = make_sign(robot, "SIGNO", [capture_take(robot, track)], ORIGIN, accept=True).verdicts
+    (slow,) = (verdict for verdict in verdicts if verdict.code == "too_slow")
+    assert slow.at == pytest.approx(2.17, abs=0.3)
+
+
 def test_everything_that_speaks_against_a_sign_is_said_at_once() -> None:
     against = judge({"palm_error_p95_deg": 62.0, "lost_percent": 44.0}, duration=0.13, has_rest=False)
     assert {found.code for found in objections(against)} == {"much_lost", "palm_off", "too_short", "no_rest"}
@@ -84,7 +137,7 @@ def test_everything_that_speaks_against_a_sign_is_said_at_once() -> None:
     ],
 )
 def test_accepting_costs_one_level_of_evidence(standing: str, after: str) -> None:
-    against = judge({}, duration=0.1, has_rest=True)
+    against = judge({}, duration=0.2, has_rest=True)
     assert accepted_standing("X", standing, against, accept=True) == after  # type: ignore[arg-type]
 
 

@@ -12,14 +12,15 @@ export const GATES = ["much_lost", "no_rest", "too_short", "palm_off", "contact_
 
 /**
  * A list of the gates, those that speak against the sign first.
- * @param {{code: string, passed: ?boolean}[]} gates `passed` is null before a capture.
+ * @param {{code: string, passed: ?boolean, at: ?number}[]} gates `passed` is null before a capture; `at` is the
+ *   second of the recording at which it is worst, where there is one.
  */
 export function gateList(gates) {
   const sorted = [...gates].sort((a, b) => a.passed - b.passed);
   return h("ul", { class: "gates" }, ...sorted.map(gate));
 }
 
-function gate({ code, passed }) {
+function gate({ code, passed, at }) {
   const failed = passed === false;
   const mark = passed === null ? "" : passed ? "✓ " : "✗ ";
   return h("li", { class: `gate ${passed === null ? "" : failed ? "failed" : "passed"}`, dataset: { gate: code } },
@@ -27,6 +28,7 @@ function gate({ code, passed }) {
     h("div", {},
       h("strong", {}, `${mark}${t(`gate.${code}`)}`),
       passed === null ? null : h("span", { class: "visually-hidden" }, t(failed ? "gate.failed" : "gate.passed")),
+      failed && at != null ? h("p", {}, t("gate.at", { at: at.toFixed(1) })) : null,
       passed ? null : h("p", {}, t(`gate.${code}.remedy`))));
 }
 

@@ -26,7 +26,7 @@ export async function outcome(context, { told, wanted, film, recording, progress
     const element = h(
       "section", { class: "card stack", "aria-labelledby": "outcome-title" },
       h("h2", { id: "outcome-title", tabindex: "-1" }, t("teach.refused")),
-      h("p", {}, refusalText(told.code)),
+      h("p", {}, told.gates.length ? t("teach.beyond") : refusalText(told.code)),
       isFilm ? video : null,
       told.gates.length ? gateList(told.gates) : null,
       h("div", { class: "row" }, redo),
