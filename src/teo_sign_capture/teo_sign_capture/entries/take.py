@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.robot_motion import RobotMotion, retarget_motion
-from teo_sign_capture.tracks.segmentation import SignSpan, the_sign
+from teo_sign_capture.tracks.segmentation import SignSpan, stays_low, the_sign
 from teo_sign_capture.tracks.signer_motion import measure_person, signer_motion
 from teo_sign_capture.tracks.skeleton_track import WRIST, SkeletonTrack
 from teo_sign_capture.tracks.smoothing import Gap, runs, seen, smooth_track
@@ -140,7 +140,7 @@ def _around(track: SkeletonTrack, cut: Cut) -> tuple[float, SkeletonTrack]:
 
 
 def _without_unseen(track: SkeletonTrack, span: SignSpan) -> Handedness:
-    """The hands that sign, less one that stands still and is mostly lost: a passive hand is not guessed."""
+    """The hands that sign, less one that is lost at times and stays low, or mostly and stands still."""
     if span.handedness != "both":
         return span.handedness
     stroke = track.between(span.start - _ROUNDING, span.end + _ROUNDING)
@@ -148,7 +148,8 @@ def _without_unseen(track: SkeletonTrack, span: SignSpan) -> Handedness:
         lost, other_lost = _lost_frames(stroke, side).mean(), _lost_frames(stroke, other).mean()
         wrist = stroke.body.positions[:, WRIST[side]]
         moves = np.linalg.norm(np.ptp(wrist[seen(wrist)], axis=0)) if seen(wrist).any() else 0.0
-        if lost > _MOSTLY > other_lost and moves < _STILL:
+        idle = (lost > 0.0 and stays_low(stroke, side)) or (lost > _MOSTLY and moves < _STILL)
+        if idle and other_lost < _MOSTLY:
             return "right" if other == "right" else "left"
     return "both"
 

@@ -218,6 +218,13 @@ def _reach(track: SkeletonTrack) -> float:
     return float(np.mean(lengths)) if lengths else _REACH
 
 
+def stays_low(track: SkeletonTrack, side: str) -> bool:
+    """Whether a wrist, where it is seen, stays below the space in which people sign."""
+    heights = track.body.positions[:, _ARMS[side][2], 2]
+    known = heights[np.isfinite(heights)]
+    return bool(known.size) and float(np.percentile(known, 95.0)) < -_LOW * _reach(track)
+
+
 def _distance_from_rest(track: SkeletonTrack, side: str, reach: float) -> Array:
     """How far a wrist is from where it rests [reach]; 0 while it is lost low, NaN while lost high."""
     wrist = track.body.positions[:, _ARMS[side][2]] / reach

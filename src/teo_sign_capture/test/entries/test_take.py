@@ -12,6 +12,7 @@ from made_tracks import HANGING, Move, lose, make_track, path
 from teo_description.robot import Robot
 from teo_names import joint_limits
 from teo_sign_capture.entries.take import Cut, SignTake, capture_take
+from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_signs.errors import LutError
 
 FRAMES = 2.0 / 30.0
@@ -118,6 +119,23 @@ def test_a_hand_that_is_found_late_has_the_shape_in_which_it_is_found(robot: Rob
 
 def test_the_other_hand_may_be_lost(robot: Robot) -> None:
     assert capture_take(robot, lose(signing(), "left_hand", 0.0, 3.2)).span.handedness == "right"
+
+
+@pytest.mark.parametrize("lost_from", [0.7, 1.25])
+def test_a_hand_that_never_rises_into_the_signing_space_takes_no_part(robot: Robot, lost_from: float) -> None:
+    """The left one goes from hanging onto the hip, below the picture, while the right one signs."""
+    times = np.arange(0.0, 3.2, 1.0 / 15.0)
+
+    def beside(*places: tuple[float, float, float]) -> SkeletonTrack:
+        goes = [(0.5, 1.0, places[0]), (1.0, 1.9, places[-1]), (1.9, 2.4, HANGING["left"])]
+        left = path(times, HANGING["left"], goes)
+        track = make_track(times, path(times, REST, SIGN), left, noise=0.004)
+        return lose(track, "left_hand", lost_from, 2.3)
+
+    assert capture_take(robot, beside((0.16, 0.26, -0.36))).span.handedness == "right"
+    with pytest.raises(LutError, match="left hand in view") as error:
+        capture_take(robot, beside((0.25, 0.26, -0.10), (0.30, 0.30, 0.15)))
+    assert error.value.code == "hand_lost"
 
 
 def test_behind_the_head_is_another_place_than_before_it(robot: Robot) -> None:
