@@ -21,9 +21,10 @@ from teo_skeleton_retriever.layouts.skeleton_3d import Skeleton
 from teo_skeleton_retriever.retriever import Retriever
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
 
-# [m] Half of a room's depths are neither nearer nor farther than these: no depth camera measures nearer than
-# 0.1 m or farther than 20 m. A thousand times too near or too far is the wrong unit, whatever the room.
-_NEAREST = 0.05
+# [m] Half of a room's depths are neither nearer nor farther than these: a camera sees no trunk from nearer
+# than 0.4 m, and none measures farther than 20 m. Ten times too near, as of centimetres, is the wrong unit in
+# rooms of up to 4 m, a thousand times too near or a hundred too far in any.
+_NEAREST = 0.4
 _FARTHEST = 50.0
 _EVERY = (
     8  # [px] Every eighth of every eighth row says how much is known and where the middle lies, in 0.1 ms.
@@ -53,9 +54,9 @@ def depth_fault(share: float, median: float) -> str:
             "no pixel of the depth image has a depth: is it on, and is the topic the one aligned to colour?"
         )
     if median < _NEAREST:
-        return f"median depth {median:.2g} m: units? 16UC1 is to be in millimetres, not in metres"
+        return f"median depth {median:.2g} m: units? 16UC1 is to be in millimetres"
     if median > _FARTHEST:
-        return f"median depth {median:.0f} m: units? 32FC1 is to be in metres, not in millimetres"
+        return f"median depth {median:.0f} m: units? 32FC1 is to be in metres"
     return ""
 
 

@@ -138,6 +138,9 @@ _FRACTION_LIMIT = 1.5
 _MOST = 0.99
 # Shoulders of a clip that is scaled to them are nearer to 0 than this: in a picture that is a corner.
 _CENTRED = 0.1
+# Size of a hand over that of the trunk (the breadth of the shoulders, or their distance from the hips): 0.6,
+# and double that half-way to the camera. Random points reach 2 and more.
+_LARGEST_HAND = 1.5
 
 
 def read_pose_file(path: Path, *, person: int | None = None) -> PoseClip:
@@ -151,7 +154,8 @@ def read_pose_file(path: Path, *, person: int | None = None) -> PoseClip:
         LutError: "unreadable", "empty_file", "too_large"; "bad_pose_file" for a file that is damaged or no
             such file; "unknown_layout"; "bad_rate"; "too_short" for fewer than two frames; "too_long";
             "non_finite"; "several_people" where `person` is needed, "no_person" where there is none of that
-            number; "no_torso" or "no_hand" if the shoulders or the hands are never seen; "seen_from_behind".
+            number; "no_torso" or "no_hand" if the shoulders or the hands are never seen; "no_body" of points
+            that are no person's; "seen_from_behind".
     """
     return _Reader(path.name).read(_content(path), person)
 
@@ -289,6 +293,14 @@ class _Reader:
             self._refuse("no_torso", "a person whose shoulders are seen", "both shoulders in no frame")
         if not any(parts[side].seen.all(axis=1).any() for side in ("left_hand", "right_hand")):
             self._refuse("no_hand", "a hand with all its points in some frame", "none in any")
+        share = max(_hand_over_trunk(body, parts[side]) for side in ("left_hand", "right_hand"))
+        if share > _LARGEST_HAND:
+            self._refuse(
+                "no_body",
+                "hands that are smaller than the trunk",
+                f"hands {share:.1f} times as large: are these a person's points, in the layout that the file "
+                "names?",
+            )
         if _is_reversed(body):
             self._refuse(
                 "seen_from_behind",
@@ -296,6 +308,20 @@ class _Reader:
                 "most of them the other way round: the person is seen from behind, or the clip was mirrored "
                 "after its points were found",
             )
+
+
+def _hand_over_trunk(body: Points, hand: Points) -> float:
+    """Size of a hand over that of the trunk, in the picture, medians of the frames; 0 if never seen."""
+    whole = hand.places[hand.seen.all(axis=1), :, 1:]
+    shoulders, hips = (body.places[:, list(pair.values()), 1:] for pair in (SHOULDER, HIP))
+    ways = (shoulders[:, 0] - shoulders[:, 1], shoulders.mean(axis=1) - hips.mean(axis=1))
+    lengths = [np.linalg.norm(way[np.isfinite(way).all(axis=1)], axis=1) for way in ways]
+    trunk = max(float(np.median(length)) for length in lengths if length.size)
+    return (
+        float(np.median(np.linalg.norm(np.ptp(whole, axis=1), axis=1))) / trunk
+        if len(whole) and trunk
+        else 0.0
+    )
 
 
 def _is_reversed(body: Points) -> bool:

@@ -12,7 +12,15 @@ from typing import Any
 import numpy as np
 from rosbags.highlevel import AnyReader
 
-from teo_sign_capture.tracks.skeleton_track import BODY, FACE, HAND, Keypoints, SkeletonTrack, in_body_axes
+from teo_sign_capture.tracks.skeleton_track import (
+    BODY,
+    FACE,
+    HAND,
+    SHOULDER,
+    Keypoints,
+    SkeletonTrack,
+    in_body_axes,
+)
 from teo_signs.errors import LutError
 
 TYPE = "teo_sign_msgs/msg/SkeletonArray"
@@ -20,6 +28,11 @@ TYPE = "teo_sign_msgs/msg/SkeletonArray"
 TRUTH = "/truth/"
 
 _PARTS = {"body": BODY, "left_hand": HAND, "right_hand": HAND, "face": FACE}
+# [m] Between the shoulder joints, median of the frames: of a child of three, and half as much again as of the
+# broadest of 27 rendered people. Depth in centimetres makes it a tenth or a hundred times.
+_NARROWEST, _BROADEST = 0.15, 0.66
+# Stature over that distance, for words: 1.70 m over 0.36 m.
+_STATURE = 4.7
 # Stamps before this count from the start of a clock that knows no day, as in simulation.
 _EARLIEST = datetime.datetime(2000, 1, 1, tzinfo=datetime.UTC)
 
@@ -51,7 +64,8 @@ def read_skeletons(bag: Path, *, topic: str | None = None, signer: int | None = 
         signer: Id of the person; None follows whoever is marked as the signer.
 
     Raises:
-        LutError: "unreadable_bag", "no_skeletons", "no_person", "no_torso" or "bad_stamps".
+        LutError: "unreadable_bag", "no_skeletons", "no_person", "no_torso", "bad_stamps", or "wrong_depth" of
+            a body no person has.
     """
     stamps: list[float] = []
     people: list[Any] = []
@@ -77,7 +91,22 @@ def read_skeletons(bag: Path, *, topic: str | None = None, signer: int | None = 
             "retrieve` reads what is left of the images",
         ) from error
     recorded = None if is_rendered(topics, stamps[0]) else _day(stamps[0])
-    return track_of_people(stamps, people, source=bag.name, signer=signer, recorded=recorded)
+    track = track_of_people(stamps, people, source=bag.name, signer=signer, recorded=recorded)
+    _check_size(track)
+    return track
+
+
+def _check_size(track: SkeletonTrack) -> None:
+    """Refuse a person of a size that only a wrong unit of depth gives."""
+    shoulders = track.body.positions[:, SHOULDER["left"]] - track.body.positions[:, SHOULDER["right"]]
+    breadth = float(np.nanmedian(np.linalg.norm(shoulders, axis=1)))
+    if not _NARROWEST <= breadth <= _BROADEST:
+        raise LutError(
+            "wrong_depth",
+            f"{track.source}: expected shoulders {_NARROWEST:g} to {_BROADEST:g} m apart, got {breadth:.2g}, "
+            f"as of somebody {_STATURE * breadth:.3g} m tall: depth must be in millimetres (16UC1) "
+            "or metres (32FC1)",
+        )
 
 
 def write_skeletons(path: Path, messages: Sequence[Any]) -> None:

@@ -253,6 +253,13 @@ def test_a_clip_of_which_no_sign_can_be_made_is_refused(
     assert code_of(write(tmp_path / "bad.pose", **made)) == code
 
 
+@pytest.mark.parametrize("seed", range(8))
+def test_points_that_are_no_persons_are_called_so(tmp_path: Path, seed: int) -> None:
+    """Whichever way round the pairs of them happen to be."""
+    places = np.random.default_rng(seed).uniform(0.0, 480.0, person(40).shape)
+    assert code_of(write(tmp_path / "junk.pose", HOLISTIC, places)) == "no_body"
+
+
 def test_shoulders_that_a_detector_confused_are_not_a_person_from_behind(tmp_path: Path) -> None:
     data = person()
     names = HOLISTIC["POSE_LANDMARKS"]

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from ament_index_python.packages import get_package_share_directory
+from made_bags import signing, write_bag
 from mcap.reader import make_reader
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
@@ -166,6 +168,17 @@ def test_a_bag_without_a_person_to_follow_is_refused(store, tmp_path, code, said
     found, sentence = code_of(write(store, tmp_path / "bag", made))
     assert found == code
     assert said in sentence
+
+
+@pytest.mark.parametrize(("times", "tall"), [(0.1, "0.169 m"), (100.0, "169 m")])
+def test_depth_in_another_unit_is_told_by_the_size_of_the_person(tmp_path, times, tall):
+    """Depth in centimetres, taken for millimetres or for metres."""
+    track = signing(rate=15.0)
+    body = replace(track.body, positions=times * track.body.positions)
+    bag = write_bag(tmp_path / "bag.mcap", replace(track, body=body))
+    code, sentence = code_of(bag)
+    assert code == "wrong_depth"
+    assert f"{tall} tall: depth must be in millimetres (16UC1) or metres (32FC1)" in sentence
 
 
 @pytest.mark.parametrize("kept", [0, 40, 3000, -20])

@@ -174,12 +174,18 @@ def changed(tmp_path, name, change, images=IMAGES):
     return bag_take.write_ros2(tmp_path / name, stored)
 
 
+def centimetres(metres):
+    """Of the person; the wall is too far off for the camera."""
+    return np.where(metres < take.WALL, 100 * metres, 0).astype(np.uint16)
+
+
 @pytest.mark.parametrize(
     ("cause", "pixels", "encoding"),
     [
         ("no pixel of the depth image has a depth", lambda metres: 0 * metres.astype(np.uint16), "16UC1"),
         ("units? 32FC1 is to be in metres", lambda metres: 1000 * metres, "32FC1"),
         ("units? 16UC1 is to be in millimetres", lambda metres: metres.astype(np.uint16), "16UC1"),
+        ("units? 16UC1 is to be in millimetres", centimetres, "16UC1"),
         ("between min_depth and max_depth", lambda metres: 6 + metres, "32FC1"),
     ],
 )
