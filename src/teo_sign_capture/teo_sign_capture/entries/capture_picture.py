@@ -7,18 +7,17 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import cv2
 import numpy as np
-from rosbags.highlevel import AnyReader
 
 from teo_common.arrays import Array
 from teo_description.pictures.rendering import Image, film_strip, save_png, write_video
 from teo_sign_capture.entries.sign_entry import Captured
 from teo_sign_capture.entries.take import SignTake
 from teo_sign_capture.recordings.recording import Recording, skeletons_of
-from teo_sign_capture.recordings.skeleton_bag import TYPE
+from teo_sign_capture.recordings.skeleton_bag import TYPE, open_bag
 from teo_sign_capture.recordings.video import video_images
 from teo_signs.pictures import FRAME_RATE, render_sign
 
@@ -226,19 +225,18 @@ def _around(image: Image, seen: _Seen, size: tuple[int, int]) -> Image:
 def _seen(skeletons: Path, start: float, end: float) -> _Seen:
     first = 0
     bodies: list[list[list[float]]] = []
-    with AnyReader([skeletons]) as reader:
-        connections = [one for one in reader.connections if one.msgtype == TYPE]
-        for connection, _, data in reader.messages(connections=connections):
-            message: Any = reader.deserialize(data, connection.msgtype)
-            stamp = message.header.stamp.sec * 1_000_000_000 + message.header.stamp.nanosec
-            first = first or stamp
-            if not start <= (stamp - first) * 1e-9 <= end:
-                continue
-            bodies += [
-                [list(skeleton.body[index].pixel) for index in _UPPER_BODY]
-                for skeleton in message.skeletons
-                if skeleton.is_signer and skeleton.body
-            ]
+    bag = open_bag(skeletons)
+    for found in bag.messages([topic for topic, kind in bag.kinds.items() if kind == TYPE]):
+        message = found.message
+        stamp = message.header.stamp.sec * 1_000_000_000 + message.header.stamp.nanosec
+        first = first or stamp
+        if not start <= (stamp - first) * 1e-9 <= end:
+            continue
+        bodies += [
+            [list(skeleton.body[index].pixel) for index in _UPPER_BODY]
+            for skeleton in message.skeletons
+            if skeleton.is_signer and skeleton.body
+        ]
     pixels = np.array(bodies, dtype=float).reshape(-1, len(_UPPER_BODY), 2)
     nothing = np.full((1, *pixels.shape[1:]), np.nan)
     with warnings.catch_warnings():

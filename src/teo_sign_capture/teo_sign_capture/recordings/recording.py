@@ -17,13 +17,11 @@ import numpy as np
 
 from teo_sign_capture.recordings.keypoint_search import Progress, find_points, find_skeletons
 from teo_sign_capture.recordings.pose_file import read_pose_file
-from teo_sign_capture.recordings.skeleton_bag import TRUTH, TYPE, is_rendered, read_skeletons
+from teo_sign_capture.recordings.skeleton_bag import TRUTH, TYPE, is_rendered, open_bag, read_skeletons
 from teo_sign_capture.recordings.video import VIDEO_SUFFIXES, is_video
 from teo_sign_capture.tracks.skeleton_track import FACE, Keypoints, SkeletonTrack, in_body_axes
 from teo_signs.errors import LutError
-from teo_skeleton_retriever.bags.bag_reader import Bag
 from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP
-from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.person_layout import BODY as PERSON_BODY
 from teo_skeleton_retriever.layouts.person_layout import LEFT_HAND, RIGHT_HAND
 from teo_skeleton_retriever.lifting.clip import PoseClip
@@ -164,7 +162,7 @@ def track_of(
         on_progress: Told how many images of how many are looked at, while keypoints are found.
 
     Returns:
-        The person, and what could not be used of the images, a sentence each.
+        The person, and what could not be used of the recording, a sentence each.
 
     Raises:
         LutError: Of `read_skeletons`, `read_pose_file` and `in_body_axes`, and where keypoints are looked for
@@ -181,7 +179,8 @@ def track_of(
     track = read_skeletons(found, topic=topic, signer=person)
     # A rendered recording has stamps, but no day on which anybody stood before a camera.
     day = None if recording.rendered else track.recorded
-    return replace(track, source=recording.name, recorded=day), tuple(warnings.splitlines())
+    told = [*warnings.splitlines(), *([f"{recording.name}: {track.damage}"] if track.damage else ())]
+    return replace(track, source=recording.name, recorded=day), tuple(told)
 
 
 def lifted_track(clip: PoseClip, *, recorded: str | None = None) -> SkeletonTrack:
@@ -235,10 +234,7 @@ def _warnings_of(skeletons: Path) -> Path:
 
 def _topics(path: Path) -> tuple[dict[str, str], float]:
     """Types of a bag's topics, and when its first message was received [s]."""
-    try:
-        bag = Bag(path)
-    except RetrieverError as error:
-        raise LutError("unreadable_bag", f"{path}: expected a bag, got: {error.sentence}") from error
+    bag = open_bag(path)
     return bag.kinds, 1e-9 * bag.begins
 
 

@@ -6,11 +6,11 @@ from __future__ import annotations
 
 import datetime
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from rosbags.highlevel import AnyReader
 
 from teo_sign_capture.tracks.skeleton_track import (
     BODY,
@@ -22,6 +22,8 @@ from teo_sign_capture.tracks.skeleton_track import (
     in_body_axes,
 )
 from teo_signs.errors import LutError
+from teo_skeleton_retriever.bags.bag_reader import Bag
+from teo_skeleton_retriever.errors import RetrieverError
 
 TYPE = "teo_sign_msgs/msg/SkeletonArray"
 # Begins the topics in which a renderer says where everything truly was.
@@ -54,11 +56,11 @@ def is_rendered(topics: Iterable[str], begins: float) -> bool:
     return told or _RENDERED_FROM <= begins < _RENDERED_FROM + _LONGEST
 
 
-def read_skeletons(bag: Path, *, topic: str | None = None, signer: int | None = None) -> SkeletonTrack:
+def read_skeletons(path: Path, *, topic: str | None = None, signer: int | None = None) -> SkeletonTrack:
     """Read a person's skeletons, in the axes of the person's trunk.
 
     Args:
-        bag: A ROS 2 bag: its folder, or its .mcap or .db3 file.
+        path: A ROS 2 bag: its folder, or its .mcap or .db3 file. Of one that was cut off, the rest is read.
         topic: Topic of `SkeletonArray`; None takes the bag's only one that is no truth of a renderer, or
             ``/skeletons`` if there are several.
         signer: Id of the person; None follows whoever is marked as the signer.
@@ -67,33 +69,30 @@ def read_skeletons(bag: Path, *, topic: str | None = None, signer: int | None = 
         LutError: "unreadable_bag", "no_skeletons", "no_person", "no_torso", "bad_stamps", or "wrong_depth" of
             a body no person has.
     """
-    stamps: list[float] = []
-    people: list[Any] = []
-    topics: list[str] = []
-    try:
-        with AnyReader([bag]) as reader:
-            topics = [connection.topic for connection in reader.connections]
-            chosen = _topic(reader, bag, topic)
-            connections = [one for one in reader.connections if one.topic == chosen]
-            for connection, _, data in reader.messages(connections=connections):
-                message: Any = reader.deserialize(data, connection.msgtype)
-                stamps.append(message.header.stamp.sec + 1e-9 * message.header.stamp.nanosec)
-                people.append(message.skeletons)
-            if not people:
-                raise LutError("no_skeletons", f"{bag.name}: expected messages on {chosen}, got none")
-    except LutError:
-        raise
-    except Exception as error:  # the library raises what unpacking wrong bytes happens to raise
-        raise LutError(
-            "unreadable_bag",
-            f"expected a whole ROS 2 bag (its folder, or its .mcap file), got {bag} which cannot be read: "
-            f"{type(error).__name__} {error}. Of a bag that was cut off, `ros2 run teo_skeleton_retriever "
-            "retrieve` reads what is left of the images",
-        ) from error
-    recorded = None if is_rendered(topics, stamps[0]) else _day(stamps[0])
-    track = track_of_people(stamps, people, source=bag.name, signer=signer, recorded=recorded)
+    opened = open_bag(path)
+    chosen = _topic(opened, path, topic)
+    messages = [found.message for found in opened.messages([chosen])]
+    if not messages:
+        told = opened.problem or "none"
+        raise LutError("no_skeletons", f"{path.name}: expected messages on {chosen}, got {told}")
+    stamps = [message.header.stamp.sec + 1e-9 * message.header.stamp.nanosec for message in messages]
+    people = [message.skeletons for message in messages]
+    recorded = None if is_rendered(opened.kinds, stamps[0]) else _day(stamps[0])
+    track = track_of_people(stamps, people, source=path.name, signer=signer, recorded=recorded)
     _check_size(track)
-    return track
+    return replace(track, damage=opened.problem)
+
+
+def open_bag(path: Path) -> Bag:
+    """Open a bag; of one that was cut off, what is before the cut.
+
+    Raises:
+        LutError: "unreadable_bag".
+    """
+    try:
+        return Bag(path)
+    except RetrieverError as error:
+        raise LutError("unreadable_bag", f"{path}: expected a bag, got: {error.sentence}") from error
 
 
 def _check_size(track: SkeletonTrack) -> None:
@@ -154,14 +153,14 @@ def track_of_people(
     )
 
 
-def _topic(reader: AnyReader, bag: Path, wanted: str | None) -> str:
-    there = sorted({one.topic for one in reader.connections if one.msgtype == TYPE})
+def _topic(bag: Bag, path: Path, wanted: str | None) -> str:
+    there = sorted(topic for topic, kind in bag.kinds.items() if kind == TYPE)
     if wanted is not None:
         if wanted in there:
             return wanted
         raise LutError(
             "no_skeletons",
-            f"{bag.name}: expected skeletons on {wanted}, got them on {', '.join(there) or 'no topic'}",
+            f"{path.name}: expected skeletons on {wanted}, got them on {', '.join(there) or 'no topic'}",
         )
     tracked = [topic for topic in there if not topic.startswith(TRUTH)]
     if len(tracked) == 1:
@@ -170,7 +169,7 @@ def _topic(reader: AnyReader, bag: Path, wanted: str | None) -> str:
         return "/skeletons"
     raise LutError(
         "no_skeletons",
-        f"{bag.name}: expected one topic of skeletons, got {', '.join(there) or 'none'}: make them from the "
+        f"{path.name}: expected one topic of skeletons, got {', '.join(there) or 'none'}: make them from the "
         "images with `ros2 run teo_skeleton_retriever retrieve`, or name the topic",
     )
 

@@ -95,6 +95,7 @@ class SkeletonTrack:
         recorded: Day of the recording, YYYY-MM-DD; None if not known.
         trunk: How the trunk is turned from where it mostly is, as a rotation vector in the axes of the track
             [rad]; None if it is not known and taken as still. Shape (T, 3).
+        damage: What is wrong with the recording, of which this is the rest; empty if nothing is.
     """
 
     times: Array
@@ -105,6 +106,7 @@ class SkeletonTrack:
     source: str
     recorded: str | None
     trunk: Array | None = None
+    damage: str = ""
 
     def __post_init__(self) -> None:
         count = len(self.times)
@@ -209,16 +211,19 @@ def in_body_axes(
     """
     _check_times(times, source)
     origins, axes = _trunk(times, body, source, np.asarray(up))
-    parts = {"body": body, "left_hand": left_hand, "right_hand": right_hand, "face": face}
-    moved = {
-        name: replace(part, positions=np.einsum("tki,tij->tkj", part.positions - origins[:, None], axes))
-        for name, part in parts.items()
-    }
+
+    def moved(part: Keypoints) -> Keypoints:
+        positions = np.einsum("tki,tij->tkj", part.positions - origins[:, None], axes)
+        return replace(part, positions=positions)
+
     turns = Rotation.from_matrix(axes)
     usual = turns.mean()
     return SkeletonTrack(
         times=times - times[0],
-        **moved,
+        body=moved(body),
+        left_hand=moved(left_hand),
+        right_hand=moved(right_hand),
+        face=moved(face),
         source=source,
         recorded=recorded,
         trunk=(usual.inv() * turns).as_rotvec(),

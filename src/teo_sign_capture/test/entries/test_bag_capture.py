@@ -112,6 +112,18 @@ def test_a_take_that_is_no_good_is_left_out_with_the_reason(
     assert error.value.code == "no_motion"
 
 
+def test_a_sign_is_captured_from_a_bag_whose_recorder_was_killed(
+    robot: Robot, settings: Settings, tmp_path: Path
+) -> None:
+    """Its index at the end is missing."""
+    bag = write_bag(tmp_path / "SIGNO.mcap", slow())
+    bag.write_bytes(bag.read_bytes()[:-200])
+    saved = capture_bags(robot, job(bag), replace(settings, pictures=tmp_path / "pictures"))
+    assert saved.captured.take.span.start == pytest.approx(1.1, abs=0.1)
+    assert any("SIGNO.mcap: cut off" in warning for warning in saved.warnings)
+    assert len(saved.pictures) == 1
+
+
 def test_bad_recordings_are_refused_and_leave_no_entry(
     robot: Robot, settings: Settings, tmp_path: Path
 ) -> None:

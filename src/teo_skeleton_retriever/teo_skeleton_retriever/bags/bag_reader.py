@@ -27,6 +27,7 @@ from rosbags.typesys import Stores, get_typestore
 from teo_common import mcap_salvage
 from teo_common.mcap_salvage import McapContent
 from teo_skeleton_retriever.errors import RetrieverError
+from teo_skeleton_retriever.output.skeleton_bag import message_types
 
 
 class RawMessage(NamedTuple):
@@ -205,7 +206,8 @@ class _Source(Protocol):
 class Bag:
     """A bag that was opened for reading; may be read several times.
 
-    Standard messages are read by their standard definitions, which have not changed since ROS 2 began.
+    Standard messages are read by their standard definitions, which have not changed since ROS 2 began, and
+    skeletons by the installed ones.
     """
 
     def __init__(self, path: Path) -> None:
@@ -218,7 +220,7 @@ class Bag:
         """
         self._path = path
         self._ros1 = path.suffix == ".bag"
-        self._types = get_typestore(Stores.ROS1_NOETIC if self._ros1 else Stores.ROS2_JAZZY)
+        self._types = get_typestore(Stores.ROS1_NOETIC) if self._ros1 else message_types()
         self._source = _open(path)
         self._unreadable = ""
 
