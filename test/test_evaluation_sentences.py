@@ -26,10 +26,10 @@ LANGUAGE = Path("src") / "teo_sign_languages" / "languages" / "ssp" / "text"
 PARTS = re.compile(r"(?<=[.?!…])\s+|[;\"“”«»]")
 # Translations that are accepted for one sentence. A judge of sentences that nobody has seen names few; the
 # others were written more generously.
-MOST_ACCEPTED = {"blind": 24, "known": 200}
-# Known sentences that must come out as accepted. The shipped translator has 599 of the 806: a mend of one
+MOST_ACCEPTED = {"blind": 6, "known": 200}
+# Known sentences that must come out as accepted. The shipped translator has 702 of the 975: a mend of one
 # sentence may cost another one or two, what costs more is a loss.
-FLOOR = 596
+FLOOR = 698
 
 
 def lines(root: Path, name: str) -> list[str]:

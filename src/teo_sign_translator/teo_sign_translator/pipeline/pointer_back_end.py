@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Back end of the pointer: asks the model once for each sentence, and makes output words of its answer.
 
-What the model leaves out is put back. The paper's sentences have their translations given, which leave out what
-they like and hold for themselves alone. Glosses become signs, names and numbers, with a pause where a mark falls
-between them.
+What the model leaves out is put back. The paper's sentences have their translations given, which leave out
+what they like and hold for themselves alone. Glosses become signs, names and numbers, with a pause where a
+mark falls between them.
 """
 
 from __future__ import annotations
