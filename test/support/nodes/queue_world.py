@@ -238,8 +238,8 @@ class World:
         if self.publishes_states:
             self._states.append((self.now, self.positions.tolist(), self.velocities.tolist()))
             while self._states and self._states[0][0] <= self.now - self.link:
-                stamp, *state = self._states.pop(0)
-                self.queue.joint_states(COMMANDED_JOINTS, *state, self.now, stamp=stamp)
+                stamp, angles, rates = self._states.pop(0)
+                self.queue.joint_states(COMMANDED_JOINTS, angles, rates, self.now, stamp=stamp)
             self._report()
         self._answer()
         self.take(self.queue.step(self.now, obstacle=self.obstacle))
