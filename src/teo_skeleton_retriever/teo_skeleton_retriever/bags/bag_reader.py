@@ -26,8 +26,8 @@ from rosbags.typesys import Stores, get_typestore
 
 from teo_common import mcap_salvage
 from teo_common.mcap_salvage import McapContent
+from teo_skeleton_retriever.bags.message_types import message_types
 from teo_skeleton_retriever.errors import RetrieverError
-from teo_skeleton_retriever.output.skeleton_bag import message_types
 
 
 class RawMessage(NamedTuple):

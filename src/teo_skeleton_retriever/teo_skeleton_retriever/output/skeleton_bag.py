@@ -6,20 +6,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from functools import cache
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from ament_index_python.packages import get_package_share_directory
 from mcap.writer import CompressionType, Writer
-from rosbags.typesys import Stores, get_types_from_msg, get_typestore
-from rosbags.typesys.store import Typestore
 
+from teo_skeleton_retriever.bags.message_types import message_types
 from teo_skeleton_retriever.output.output_file import output_file
 
 TOPIC = "/skeletons"
 _TYPE = "teo_sign_msgs/msg/SkeletonArray"
-_PARTS = ("teo_sign_msgs/msg/Keypoint3D", "teo_sign_msgs/msg/Skeleton3D", _TYPE)
 
 
 class SkeletonBag:
@@ -66,14 +62,3 @@ def skeleton_bag(path: Path) -> Iterator[SkeletonBag]:
         bag = SkeletonBag(stream)
         yield bag
         bag.finish()
-
-
-@cache
-def message_types() -> Typestore:
-    """Give the types of messages of ROS 2 and that of the skeletons, for bags."""
-    folder = Path(get_package_share_directory("teo_sign_msgs")) / "msg"
-    store = get_typestore(Stores.ROS2_JAZZY)
-    for name in _PARTS:
-        text = (folder / f"{name.rpartition('/')[2]}.msg").read_text(encoding="utf-8")
-        store.register(get_types_from_msg(text, name))
-    return store

@@ -21,13 +21,13 @@ from std_msgs.msg import Header
 from teo_sign_msgs.msg import SkeletonArray
 
 from teo_skeleton_retriever.arrays import BoolArray, FloatArray
+from teo_skeleton_retriever.bags.message_types import message_types
 from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton, body_frame
 from teo_skeleton_retriever.output.messages import skeleton_array
 from teo_skeleton_retriever.output.overlay import overlay_video
-from teo_skeleton_retriever.output.skeleton_bag import message_types
 from teo_synthetic_signer.errors import SyntheticError
 from teo_synthetic_signer.take.take import SyntheticFrame, Truth, TruthFrame
 
