@@ -130,7 +130,8 @@ def make_sign(
     quality = _quality(robot, used, sign, playback, away) | {"takes_count": float(len(takes))}
     # A letter is a posture that is held: clips of the alphabet begin and end with the hand raised.
     has_rest = kind == "letter" or any(take.has_rest for take in used)
-    worst = _worst_moments(takes[combined.leader], playback.slowest / sign.duration)
+    share = playback.slowest / sign.duration if sign.duration else 0.0
+    worst = _worst_moments(takes[combined.leader], share)
     verdicts = judge(quality, duration=sign.duration, has_rest=has_rest, worst=worst)
     standing = accepted_standing(sign.gloss, origin.standing, verdicts, accept=accept)
     provenance = _accepted(sign.provenance, standing, objections(verdicts))
@@ -319,7 +320,8 @@ def play(robot: Robot, sign: Sign, times: Array, positions: Array) -> Playback:
     _check_limits(robot, sign.gloss, plan)
     columns = [plan.names.index(joint) for joint in sign.joints]
     waypoints = _waypoint_times(sign, plan, columns)
-    slowest = int(np.argmax(np.diff(waypoints) / np.diff(sign.times)))
+    paces = np.diff(waypoints) / np.diff(sign.times)
+    slowest = int(paces.argmax()) if paces.size else 0  # a posture that is held has one knot
     return Playback(
         stretch=plan.timings[0].stretch,
         path_error=_path_error(robot, sign, plan, waypoints, times, positions),
