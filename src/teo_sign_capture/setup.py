@@ -24,7 +24,6 @@ setup(
         "pose-format",
         "pydantic",
         "rich",
-        "rosbags",
         "scipy",
         "threadpoolctl",
         "typer",

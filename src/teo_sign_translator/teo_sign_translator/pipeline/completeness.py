@@ -317,12 +317,14 @@ def read_gloss_words(path: Path) -> dict[str, frozenset[str]]:
 
 
 def _each_word_once(words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> tuple[OutputGloss, ...]:
-    """Glosses without those that are carried over again, and without one said twice in a row for no word."""
+    """Glosses without marks, without those carried over again, and none said twice in a row for no word."""
     by_gloss, _ = _places(words)
     taken: set[int] = set()
     result: list[OutputGloss] = []
     for gloss in glosses:
         own = by_gloss.get(gloss.gloss, [])
+        if not any(map(str.isalnum, gloss.gloss)):
+            continue
         again = bool(result) and result[-1].gloss == gloss.gloss
         if (gloss.copied and own and taken.issuperset(own)) or (not own and again):
             continue
