@@ -169,6 +169,9 @@ def _as_given(hypotheses: Sequence[Hypothesis], given: GivenSentence | None) -> 
     """The given translation, each gloss with what the model says of it; None where none is given."""
     if given is None:
         return None
+    for hypothesis in hypotheses:
+        if tuple(gloss.gloss for gloss in hypothesis.glosses) == given.glosses:
+            return CompleteTranslation(hypothesis.glosses, (False,) * len(given.glosses), given=True)
     said = {gloss.gloss: gloss for hypothesis in reversed(hypotheses) for gloss in hypothesis.glosses}
     glosses = tuple(said.get(name, OutputGloss(name, (), 1.0, copied=False)) for name in given.glosses)
     return CompleteTranslation(glosses, (False,) * len(glosses), given=True)

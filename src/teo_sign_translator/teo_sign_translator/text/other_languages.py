@@ -19,7 +19,7 @@ _FILE = "other_languages.tsv"
 #: What noise is called where a language has a name.
 NOISE = "keyboard noise"
 #: Share of the words that must be unknown. A text of another language shares some of its words with this one;
-#: of 806 sentences of the evaluation 3 have half of theirs unknown, all of them names.
+#: of 975 sentences of the evaluation one reaches half ("tienes whatsapp?"), the next 0.38.
 _UNKNOWN = 0.5
 #: With several words that tell the language, a smaller share is enough: "M'agrada molt la platja amb tu".
 _UNKNOWN_TOLD = 0.4

@@ -16,11 +16,12 @@ from teo_sign_translator.text.numerals import Numerals
 from teo_sign_translator.text.rules import Found, SentenceWords, TextRules
 
 _LETTERS_AND_DIGITS = re.compile(r"[^\W_]+")
-# Of mail and of the web, those without "www." by the endings that people write most here.
+# Of mail and of the web, those without "www." by the endings that people write most here. A name before "@"
+# has at most 64 characters, a label 63 (RFC 5321, 1035): without bounds a long row of marks takes seconds.
 _ADDRESS = re.compile(
-    r"[A-Za-z0-9][\w.+-]*@[A-Za-z0-9-]+(?:\.[A-Za-z0-9-]+)+"
+    r"[A-Za-z0-9][\w.+-]{0,63}@[A-Za-z0-9-]{1,63}(?:\.[A-Za-z0-9-]{1,63}){1,8}"
     r"|(?:https?://|www\.)[A-Za-z0-9./?=&_%#-]*[A-Za-z0-9/]"
-    r"|[A-Za-z0-9-]+(?:\.[A-Za-z0-9-]+)*\.(?:com|org|net|info|edu|es|eu|uk)(?![\w@])(?:/[A-Za-z0-9./_-]*[A-Za-z0-9/])?",
+    r"|[A-Za-z0-9-]{1,63}(?:\.[A-Za-z0-9-]{1,63}){0,8}\.(?:com|org|net|info|edu|es|eu|uk)(?![\w@])(?:/[A-Za-z0-9./_-]*[A-Za-z0-9/])?",
     re.ASCII,
 )
 _SCHEME = re.compile(r"https?://")

@@ -6,13 +6,14 @@ from __future__ import annotations
 
 import pytest
 
-from teo_sign_translator.data_files import data_file
+from teo_sign_translator.data_files import data_file, read_listed
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.text.cleaning import clean
 from teo_sign_translator.text.other_languages import NOISE, OtherLanguage, OtherLanguages
 from teo_sign_translator.text.reading import read
 
-OTHERS = OtherLanguages.load(data_file(""), "Spanish", Morphology.load())
+MORPHOLOGY = Morphology.load()
+OTHERS = OtherLanguages.load(data_file(""), "Spanish", MORPHOLOGY)
 
 
 def _found(text: str) -> OtherLanguage | None:
@@ -54,3 +55,9 @@ def test_another_language_is_named_with_the_words_that_are_not_spanish(text: str
 )
 def test_spanish_with_names_slips_and_loan_words_is_spanish(text: str) -> None:
     assert _found(text) is None
+
+
+def test_no_telling_word_is_a_spanish_one() -> None:
+    for language, words in read_listed(data_file("other_languages.tsv"), str.istitle, "a language").items():
+        spanish = {word for word in words if any(each.exact for each in MORPHOLOGY.readings(word))}
+        assert not spanish, language
