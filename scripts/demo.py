@@ -96,11 +96,12 @@ class Spectator(Node):
         self._film = film
         self._filming = False
         self._next_frame: float | None = None
-        status_qos = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        # What both keep for us is heard even if they find us after they have said it.
+        kept = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self.create_subscription(JointState, "joint_states", self._on_state, 100)
-        self.create_subscription(SignSentence, "sign_tokens", self.progress.on_tokens, 100)
+        self.create_subscription(SignSentence, "sign_tokens", self.progress.on_tokens, kept)
         self.create_subscription(TranslationStatus, "translation_status", self.progress.on_translation, 10)
-        self.create_subscription(ExecutorStatus, "executor_status", self.progress.on_status, status_qos)
+        self.create_subscription(ExecutorStatus, "executor_status", self.progress.on_status, kept)
         self._text = self.create_publisher(String, "text", 10)
 
     def say(self, text: str) -> None:

@@ -55,8 +55,11 @@ class LiveFilm:
 def _draw(path: Path, robot: str, frames: multiprocessing.Queue[_Frame | None]) -> None:
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # the unfinished file goes as the block ends
     renderer, frame = Renderer(Robot.load(robot)), frames.get()
+    drawn, image = None, None
     with MotionVideo(path, frames_per_second=FRAMES_PER_SECOND) as video:
         while frame is not None:
             positions, caption = frame
-            video.add(renderer.render(positions), caption)
+            if image is None or positions != drawn:  # a robot that waits costs no drawing
+                drawn, image = positions, renderer.render(positions)
+            video.add(image, caption)
             frame = frames.get()

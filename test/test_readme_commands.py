@@ -37,7 +37,7 @@ PAGES = sorted(
 )
 #: Typed in network namespaces, machine by machine, by teo_bringup's test_machines.py.
 PAGES.remove(ROOT / "docs" / "machines.md")
-TIMEOUT = 300.0  # [s] for one command on a loaded machine; the longest takes half a minute on a quiet one
+TIMEOUT = 600.0  # [s] for one command on a loaded machine; the longest takes half a minute on a quiet one
 
 #: What is not run, and why.
 NOT_RUN = {
