@@ -17,8 +17,8 @@ from rosbags.typesys import Stores, get_typestore
 
 ROOT = Path(__file__).parents[1]
 pytestmark = [pytest.mark.dds, pytest.mark.slow]
-# [s] for a short text: it takes 35 alone and 100 to 150 beside a browser that draws without a graphics card, which
-# leaves a third of a core to each process. Who hangs is told from who waits by far more than that.
+# [s] for a short text: it takes 35 alone and 100 to 150 beside a browser that draws without a graphics card,
+# which leaves a third of a core to each process. Who hangs is told from who waits by far more than that.
 TIMEOUT = 600.0
 
 
