@@ -43,8 +43,8 @@ class LiveFilm:
             self._frames.put(None)
         else:  # what is left to draw would only keep the person from the reason
             self._process.terminate()
-            self._frames.cancel_join_thread()
         self._process.join()
+        self._frames.cancel_join_thread()  # what it has not taken nobody takes: our own end would wait for that
 
     @property
     def whole(self) -> bool:
