@@ -44,7 +44,7 @@ class LiveFilm:
         else:  # what is left to draw would only keep the person from the reason
             self._process.terminate()
         self._process.join()
-        self._frames.cancel_join_thread()  # what it has not taken nobody takes: our own end would wait for that
+        self._frames.cancel_join_thread()  # nobody takes what it has not: our end would wait for that
 
     @property
     def whole(self) -> bool:
