@@ -128,16 +128,16 @@ async def run(job: Job, folder: Path) -> None:
     said: deque[str] = deque(maxlen=_LAST_LINES)
     try:
         async with asyncio.timeout(limits.seconds):
-            output, _ = await asyncio.gather(_read_output(process.stdout), _listen(process.stderr, job, said))
+            output, _ = await asyncio.gather(_read_output(process), _listen(process.stderr, job, said))
             status = await process.wait()
     except TimeoutError:
         _fail(job, "too_slow", f"expected {command.name} to end within {limits.seconds:g} s, it did not")
         return
-    except _TooMuchError:
-        _fail(job, "too_much_output", f"expected at most {_OUTPUT_BYTES} bytes from {command.name}, got more")
-        return
     finally:
         await _end(process)
+    if len(output) > _OUTPUT_BYTES:
+        _fail(job, "too_much_output", f"expected at most {_OUTPUT_BYTES} bytes from {command.name}, got more")
+        return
     job.output = output.decode("utf-8", errors="replace")
     job.result = _last_json(job.output)
     if status == 0 or isinstance(job.result, dict):
@@ -146,17 +146,15 @@ async def run(job: Job, folder: Path) -> None:
         _fail(job, *_reason(command.name, status, said))
 
 
-class _TooMuchError(Exception):
-    """A command printed more than is kept."""
-
-
-async def _read_output(stream: asyncio.StreamReader) -> bytes:
-    """All that is printed."""
+async def _read_output(process: asyncio.subprocess.Process) -> bytes:
+    """All that is printed; who prints more than is kept is killed."""
+    assert process.stdout is not None
     output = bytearray()
-    while piece := await stream.read(_LINE_BYTES):
-        output += piece
-        if len(output) > _OUTPUT_BYTES:
-            raise _TooMuchError
+    while piece := await process.stdout.read(_LINE_BYTES):
+        if len(output) <= _OUTPUT_BYTES:
+            output += piece
+            if len(output) > _OUTPUT_BYTES:
+                _signal(process, signal.SIGKILL)
     return bytes(output)
 
 
@@ -186,14 +184,32 @@ async def _listen(stream: asyncio.StreamReader, job: Job, said: deque[str]) -> N
 async def _end(process: asyncio.subprocess.Process) -> None:
     """See to it that nothing is left of the process's group."""
     # Not `asyncio.timeout`: in a task that is being cancelled, that of Python 3.11.2 does not time out.
-    ended = asyncio.ensure_future(process.wait())
-    for number, wait in ((signal.SIGTERM, _GRACE), (signal.SIGKILL, None)):
-        try:
-            os.killpg(process.pid, number)
-        except (ProcessLookupError, PermissionError):  # nobody is left
+    ended = asyncio.ensure_future(_end_of(process))
+    for number in (signal.SIGTERM, signal.SIGKILL):
+        if not _signal(process, number):  # nobody is left
             break
-        await asyncio.wait({ended}, timeout=wait)
-    await ended
+        await asyncio.wait({ended}, timeout=_GRACE)
+    # A process that left the group may hold the pipes for as long as it likes.
+    await asyncio.wait({ended}, timeout=_GRACE)
+    ended.cancel()
+
+
+def _signal(process: asyncio.subprocess.Process, number: int) -> bool:
+    """Send a signal to the process's group; whether anybody is left in it."""
+    try:
+        os.killpg(process.pid, number)
+    except (ProcessLookupError, PermissionError):
+        return False
+    return True
+
+
+async def _end_of(process: asyncio.subprocess.Process) -> None:
+    """Wait until a process has ended, whatever it has printed: asyncio sees no end before that is read."""
+    for stream in (process.stdout, process.stderr):
+        assert stream is not None
+        while await stream.read(_LINE_BYTES):
+            pass
+    await process.wait()
 
 
 def _last_json(output: str) -> Any:
