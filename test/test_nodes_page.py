@@ -99,3 +99,6 @@ def test_the_running_nodes_have_open_what_the_page_says(domain_id: int, tmp_path
         rclpy.shutdown(context=context)
     assert sorted(found - expected) == []
     assert sorted(expected - found) == []
+    # Whoever has a topic open hears all that is said on it.
+    logs = {path.name: path.read_text(encoding="utf-8") for path in tmp_path.glob("*.log")}
+    assert [name for name, said in logs.items() if "incompatible QoS" in said] == []

@@ -10,6 +10,7 @@ from typing import Any
 
 from control_msgs.msg import SpeedScalingFactor
 from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.task import Future
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
@@ -47,7 +48,9 @@ class RobotClient:
         self._node = node
         self._situation = situation
         self._texts = node.create_publisher(String, "text", 10)
-        self._sentences = node.create_publisher(SignSentence, "sign_tokens", 10)
+        # Kept, as the translator's are: the executor asks for that, and knows what it has signed already.
+        kept = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        self._sentences = node.create_publisher(SignSentence, "sign_tokens", kept)
         self._speeds = node.create_publisher(SpeedScalingFactor, "speed_scaling_input", 10)
         self._orders = {order: node.create_client(Trigger, order.value) for order in Order}
         self._get_sign = node.create_client(GetSign, "get_sign")
