@@ -7,6 +7,7 @@ from __future__ import annotations
 import asyncio
 import json
 import xml.etree.ElementTree as ET
+import zlib
 from collections.abc import AsyncIterator, Callable, Coroutine
 from contextlib import asynccontextmanager
 from functools import wraps
@@ -95,6 +96,20 @@ async def test_the_page_comes_with_headers_that_let_it_load_nothing_from_elsewhe
             assert "unsafe" not in policy
             assert "*" not in policy
             assert response.headers["X-Content-Type-Options"] == "nosniff"
+
+
+@with_server
+async def test_what_the_page_loads_is_sent_compressed(server: Server, _: aiohttp.ClientSession) -> None:
+    paths = [path for path in WEB.rglob("*") if path.suffix in (".js", ".css", ".json", ".svg")]
+    sent = 0
+    async with aiohttp.ClientSession(auto_decompress=False) as session:
+        for path in paths:
+            async with session.get(f"{server.url}/{path.relative_to(WEB)}") as answer:
+                assert answer.headers["Content-Encoding"] == "deflate"
+                coded = await answer.read()
+            assert zlib.decompress(coded) == path.read_bytes()
+            sent += len(coded)
+    assert sent < sum(path.stat().st_size for path in paths) / 3
 
 
 @with_server
