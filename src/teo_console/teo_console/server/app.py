@@ -78,7 +78,8 @@ _Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
 async def _compressed(request: web.Request, handler: _Handler) -> web.StreamResponse:
     """Send text in the coding that the browser takes: of 870 kB a telephone fetches 240."""
     response = await handler(request)
-    if not response.prepared and request.path.endswith(_TEXT):
+    empty = isinstance(response, web.Response) and not response.body
+    if request.path.endswith(_TEXT) and not response.prepared and not empty:
         response.enable_compression()
     return response
 
