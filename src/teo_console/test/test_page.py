@@ -308,11 +308,26 @@ def test_a_sentence_is_signed_stopped_and_the_tabs_are_seen_by_keyboard_alone(ne
     wait_until_ready(page)
 
 
+# How many pixels of the robot are there when the picture has got another size, before anything else is drawn.
+DRAWN_IN_ANOTHER_SIZE = """async () => {
+  const stage = document.querySelector(".stage");
+  stage.style.height = "300px";
+  await new Promise((resized) => new ResizeObserver(resized).observe(stage));
+  const { width, height } = stage.getBoundingClientRect();
+  const copy = new OffscreenCanvas(width, height).getContext("2d");
+  copy.drawImage(stage.querySelector("canvas"), 0, 0, width, height);
+  stage.style.height = "";
+  const { data } = copy.getImageData(0, 0, width, height);
+  return data.filter((value, place) => place % 4 === 3 && value > 200).length;
+}"""
+
+
 @pytest.mark.slow
 def test_the_robot_is_seen_from_three_places_as_in_a_mirror_and_slower(new_page: NewPage) -> None:
     page = new_page()
     wait_until_ready(page)
     page.wait_for_selector(".stage .empty", state="hidden")
+    assert page.evaluate(DRAWN_IN_ANOTHER_SIZE) > 1000
     drawn: list[NDArray[np.int16]] = []
     for camera in ("front", "signer", "hand"):
         page.click(f"[data-camera={camera}]")

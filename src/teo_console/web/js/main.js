@@ -109,7 +109,7 @@ function showStatus() {
   if (!named) return; // there are no words yet
   const { text, tone } = statusOf(socket.connected, socket.situation);
   const status = element("status");
-  if (status.textContent !== text) status.textContent = text; // else it would be read aloud again
+  if (status.textContent !== text) status.textContent = status.title = text; // else it would be read aloud again
   status.dataset.tone = tone;
   showRearm();
 }

@@ -188,10 +188,14 @@ class RobotView {
       this.#drawnAt = null;
       return;
     }
+    this.#render();
+    this.#adapt(performance.now());
+  }
+
+  #render() {
     this.#dirty = false;
     this.renderer.render(this.scene, this.eye);
     this.frames += 1;
-    this.#adapt(performance.now());
   }
 
   #adapt(now) {
@@ -239,7 +243,7 @@ class RobotView {
     const { view, across = view } = CAMERAS[this.#preset];
     this.eye.fov = Math.min(Math.max(view, across / this.eye.aspect), WIDEST_VIEW);
     this.eye.updateProjectionMatrix();
-    this.#dirty = true;
+    this.#render(); // at once: a canvas of another size is an empty one
   }
 }
 

@@ -26,11 +26,8 @@ export function statusOf(connected, situation) {
   if (robot.mode === "paused") return { text: t("status.paused"), tone: "warn" };
   const unwell = nodes.find(({ state }) => state === "unwell");
   const signing = current ? t("status.signing", { text: current.text || t("untitled") }) : null;
-  if (unwell) {
-    const text = t("status.unwell", { node: t(`node.${unwell.role}`) });
-    return { text: signing ? `${signing} ${text}` : text, tone: "warn" };
-  }
-  if (signing) return { text: signing, tone: "good" };
+  if (signing) return { text: signing, tone: unwell ? "warn" : "good" };
+  if (unwell) return { text: t("status.unwell", { node: t(`node.${unwell.role}`) }), tone: "warn" };
   if (robot.executor === "waiting" && queue.length) return { text: t("status.waiting"), tone: "good" };
   if (robot.mode === "moving") return { text: t("status.moving"), tone: "good" };
   return { text: t("status.ready"), tone: "good" };

@@ -53,7 +53,7 @@ export function robotControls({ socket, settings, attempt, t }, listening) {
 
   listening.on(socket, "situation", show);
   const element = h(
-    "section", { class: "card", "aria-labelledby": "robot-title" },
+    "section", { class: "card robot-controls", "aria-labelledby": "robot-title" },
     h("h2", { id: "robot-title" }, t("robot.title")),
     h("div", { class: "row" }, pause,
       h("label", { class: "speed", for: "speed" }, h("span", {}, t("robot.speed"), " ", told), speed)),
