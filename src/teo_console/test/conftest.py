@@ -77,7 +77,8 @@ def new_page(browser: Browser, address: str) -> Iterator[NewPage]:
         page = context.new_page()
         page.on("pageerror", lambda error: wrong.append(str(error)))
         page.on("console", note)
-        page.on("dialog", lambda dialog: wrong.append(dialog.message))
+        # Nothing of the page alerts: what does was smuggled in.
+        page.on("dialog", lambda dialog: wrong.append(dialog.message) if dialog.type == "alert" else None)
         if poses is not None:
             page.on("websocket", poses.listen)
         if script:

@@ -127,10 +127,16 @@ def test_stop_holds_the_robot_until_it_is_rearmed(new_page: NewPage, film: Film)
         stopped = poses.heard[-1][0] + BRAKED
         poses.wait_until(page, stopped + STILLNESS)
         assert poses.farthest(since=stopped) == 0.0
+        asked: list[str] = []
+        page.once("dialog", lambda dialog: (asked.append(dialog.message), dialog.dismiss()))
+        page.click("#rearm")  # would start what waits
+        assert ["(1)" in question for question in asked] == [True]
+        expect(page.locator("#status")).to_have_text("Parado: no se mueve hasta rearmarlo.")
         page.click("#clear")
         expect(page.locator("#queue-title ~ ol li")).to_have_count(0)
         page.click("#rearm")
         wait_until_ready(page)
+        expect(page.locator("#stop")).to_be_focused()  # the button is disabled, and lost it
 
 
 def test_a_robot_that_is_rearmed_while_it_brakes_is_armed_when_it_is_at_rest(

@@ -123,11 +123,15 @@ function showRearm() {
 }
 
 async function rearm() {
+  const waiting = socket.situation?.queue.filter(({ current }) => !current).length;
+  if (waiting && !confirm(t("rearm.starts", { count: waiting }))) return;
   rearming = true;
   showRearm();
   await attempt(() => socket.ask("command", { order: "rearm" }));
   rearming = false;
   showRearm();
+  // A button that is disabled loses the focus: whoever works by keyboard goes on beside it.
+  if (document.activeElement === document.body) element("stop").focus();
 }
 
 async function setLanguage(language) {
