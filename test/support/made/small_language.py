@@ -76,7 +76,7 @@ def sentence_pairs(count: int, seed: int = 1) -> list[Pair]:
 
 
 def small_config(name: str) -> NetworkConfig:
-    return dataclasses.replace(ZOO[name], hidden=32, embedding=24)
+    return dataclasses.replace(ZOO[name], hidden=32, embedding=24, members=1)
 
 
 def fit_small(name: str, pairs: Sequence[Pair], **training: Any) -> Fit:

@@ -16,7 +16,16 @@ from teo_sign_translator.data_files import data_file
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import lexicon
 from teo_sign_translator.morphology.conjugation import ConjugatedForms
-from teo_sign_translator.morphology.lexicon import EXACT, RARE, Candidate, Entry, WordForms, effort
+from teo_sign_translator.morphology.lexicon import (
+    ACCENTS_MISSING,
+    EXACT,
+    NAME,
+    RARE,
+    Candidate,
+    Entry,
+    WordForms,
+    effort,
+)
 from teo_sign_translator.morphology.readings import Reading, tag_class
 from teo_sign_translator.morphology.suffixing import SUFFIXES, SuffixedForms
 
@@ -78,6 +87,11 @@ class Morphology:
         """
         return self._cached(unicodedata.normalize("NFC", word))
 
+    def knows(self, form: str) -> bool:
+        """Whether a word in lower case is one of everyday use, written so or with accents left out."""
+        found = self._candidates(form, strip_marks(form), capital=False)
+        return any(each.effort in (EXACT, ACCENTS_MISSING) and each.source != NAME for each in found)
+
     def inflect(self, lemma: str, tag: str) -> str:
         """The form of a lemma that a tag names.
 
@@ -111,8 +125,7 @@ class Morphology:
             return (Reading(form, "X", exact=False),)
         capital = word[0].isupper()
         folded = strip_marks(form)
-        listed = list(self._listed(form, folded, capital))
-        candidates = self._words.unlisted(form, folded, listed, self._by_folded)
+        candidates = self._candidates(form, folded, capital=capital)
         if not candidates:
             unknown = self._words.guess(form)
             return (Reading(word, "NAME", exact=False), unknown) if capital else (unknown,)
@@ -130,6 +143,10 @@ class Morphology:
         if capital and ranked[0].effort == RARE:
             return (Reading(word, "NAME", exact=False), *readings)[:MAX_READINGS]
         return readings
+
+    def _candidates(self, form: str, folded: str, *, capital: bool) -> list[Candidate]:
+        listed = list(self._listed(form, folded, capital))
+        return self._words.unlisted(form, folded, listed, self._by_folded)
 
     def _listed(self, form: str, folded: str, capital: bool) -> Iterator[Candidate]:
         for (written, lemma, tag), source in self._by_folded.get(folded, ()):

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 
@@ -125,6 +125,12 @@ class CompleteTranslation:
     glosses: tuple[OutputGloss, ...]
     put_back: tuple[bool, ...]
     given: bool = False
+
+    def without(self, place: int) -> CompleteTranslation:
+        """The same without one gloss, whose words others say."""
+        glosses = self.glosses[:place] + self.glosses[place + 1 :]
+        put_back = self.put_back[:place] + self.put_back[place + 1 :]
+        return replace(self, glosses=glosses, put_back=put_back)
 
 
 class FunctionWords:

@@ -10,7 +10,7 @@ mark falls between them.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple
@@ -22,6 +22,7 @@ from teo_sign_translator.output.translation import Origin
 from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.back_end import TranslatedSentence
 from teo_sign_translator.pipeline.completeness import Completeness, CompleteTranslation
+from teo_sign_translator.pipeline.topic import Topic, Topics
 from teo_sign_translator.pointer import Hypothesis, OutputGloss, SentenceModel
 from teo_sign_translator.pointer.vocabulary import copied_gloss
 from teo_sign_translator.text.cleaning import clean
@@ -104,6 +105,7 @@ class PointerBackEnd:
         self._given = given
         self._agreement = agreement
         self._beam_width = beam_width
+        self._topics = Topics(morphology.folder)
 
     @property
     def name(self) -> str:
@@ -115,7 +117,13 @@ class PointerBackEnd:
         units = [self._units(clauses) for clauses in texts]
         asked = [part for text in units for unit in text for part in unit.parts]
         said = iter(self._model.translate_all(asked, beam=self._beam_width))
-        return [[self._assembled(unit, [next(said) for _ in unit.parts]) for unit in text] for text in units]
+        return [self._of_text(text, said) for text in units]
+
+    def _of_text(
+        self, units: Sequence[_Unit], said: Iterator[Sequence[Hypothesis]]
+    ) -> list[TranslatedSentence]:
+        topic = Topic(self._topics)
+        return [self._assembled(unit, [next(said) for _ in unit.parts], topic) for unit in units]
 
     def _units(self, clauses: Sequence[Clause]) -> list[_Unit]:
         """The sentences of a text; two that are given as one are one."""
@@ -129,7 +137,9 @@ class PointerBackEnd:
             result.append(_Unit(own, divided(words), self._given.get(_key(own))))
         return result
 
-    def _assembled(self, unit: _Unit, answers: Sequence[Sequence[Hypothesis]]) -> TranslatedSentence:
+    def _assembled(
+        self, unit: _Unit, answers: Sequence[Sequence[Hypothesis]], topic: Topic
+    ) -> TranslatedSentence:
         """A sentence from what the model says for each of its parts."""
         output_words: list[OutputWord] = []
         recognised = unit.given.type if unit.given else None
@@ -137,6 +147,9 @@ class PointerBackEnd:
             if output_words:
                 output_words.append(PAUSE)
             said = _as_given(hypotheses, unit.given) or self._completeness.complete(words, hypotheses)
+            unsaid = topic.unsaid(words, said.glosses)
+            if unsaid is not None and not unit.given:
+                said = said.without(unsaid)
             output_words += _gloss_output_words(words, said, self._agreement, self._rules.glosses)
             if not unit.given and _asks(words, said.glosses):
                 recognised = SentenceType.WH_QUESTION

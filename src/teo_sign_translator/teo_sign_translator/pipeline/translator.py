@@ -336,8 +336,7 @@ def _titles_as_names(output_words: Sequence[OutputWord], sentence: str) -> list[
     """Output words, those of a work's title in quotes as names: nothing is signed in place of them."""
     titled = {word for title in _TITLE.findall(sentence) for word in re.findall(r"\w+", title)}
     return [
-        replace(word, is_name=True) if word.words and titled.issuperset(word.words) else word
-        for word in output_words
+        replace(word, is_name=True) if not titled.isdisjoint(word.words) else word for word in output_words
     ]
 
 

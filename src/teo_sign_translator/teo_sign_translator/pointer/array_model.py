@@ -141,6 +141,7 @@ class Memory:
             with the same gloss. Shape (B, C).
         barred: 0 for each candidate that is a reading, minus infinity for the others. Shape (B, C).
         glosses: The candidates' glosses, of each sentence.
+        others: Of the other members of an ensemble, whose first states follow in `first`.
     """
 
     words: Array
@@ -151,6 +152,7 @@ class Memory:
     slots: Ints
     barred: Array
     glosses: tuple[tuple[str, ...], ...]
+    others: tuple[Memory, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -33,6 +33,7 @@ class NetworkConfig:
         hidden: Units of each recurrent layer and direction. 160 keep a short sentence under 3 ms on one
             core, and the training on 200,000 pairs under an hour on two.
         embedding: Size of each embedding.
+        members: Networks of this shape, from other seeds, whose probabilities are averaged.
     """
 
     cell: Cell = "lstm"
@@ -43,14 +44,15 @@ class NetworkConfig:
     copy: bool = False
     hidden: int = 160
     embedding: int = 96
+    members: int = 1
 
     def __post_init__(self) -> None:
         """Refuse shapes that cannot be built."""
         problems = [
             f"cell of {get_args(Cell)}" if self.cell not in get_args(Cell) else "",
             f"layout of {get_args(Layout)}" if self.layout not in get_args(Layout) else "",
-            "layers, hidden and embedding of at least 1"
-            if min(self.layers, self.hidden, self.embedding) < 1
+            "layers, hidden, embedding and members of at least 1"
+            if min(self.layers, self.hidden, self.embedding, self.members) < 1
             else "",
             "attention only with encoder_decoder" if self.attention and self.layout == "equal_length" else "",
             "copy only with attention" if self.copy and not self.attention else "",

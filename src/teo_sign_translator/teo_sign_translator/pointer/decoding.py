@@ -19,6 +19,7 @@ from threadpoolctl import ThreadpoolController  # type: ignore[import-untyped] #
 from teo_sign_translator.model_files import Weights, read_model, write_model
 from teo_sign_translator.pointer.array_model import Array, ArrayModel, Ints, Memory
 from teo_sign_translator.pointer.config import NetworkConfig
+from teo_sign_translator.pointer.ensemble import Ensemble
 from teo_sign_translator.pointer.vocabulary import END_INDEX, READINGS, START_INDEX, Vocabulary
 from teo_sign_translator.text.source_words import SourceWord
 
@@ -94,7 +95,7 @@ class SentenceModel:
     """
 
     name: str
-    arrays: ArrayModel
+    arrays: ArrayModel | Ensemble
 
     def translate(self, words: Sequence[SourceWord], *, beam: int = 1) -> tuple[Hypothesis, ...]:
         """Translate one sentence; raises nothing for words it has never seen.
@@ -135,7 +136,7 @@ class SentenceModel:
 
 
 def search(
-    model: ArrayModel, sentences: Sequence[Sequence[SourceWord]], beam: int
+    model: ArrayModel | Ensemble, sentences: Sequence[Sequence[SourceWord]], beam: int
 ) -> list[tuple[Hypothesis, ...]]:
     """Beam search over sentences that have the same number of words.
 
@@ -214,7 +215,7 @@ def _said(slot: Ints, candidates: Array, memory: Memory, size: int) -> Ints:
 
 
 def _hypotheses(
-    model: ArrayModel,
+    model: ArrayModel | Ensemble,
     memory: Memory,
     choices: Sequence[_Choice],
     index: int,
@@ -238,7 +239,9 @@ def _hypotheses(
     return tuple(found.values())
 
 
-def _gloss(model: ArrayModel, memory: Memory, choice: _Choice, index: int, place: int) -> OutputGloss:
+def _gloss(
+    model: ArrayModel | Ensemble, memory: Memory, choice: _Choice, index: int, place: int
+) -> OutputGloss:
     size = len(model.vocabulary.glosses)
     said = int(choice.said[index, place])
     looked = sources(choice.attention[index, place])
@@ -260,7 +263,7 @@ def sources(attention: Array) -> tuple[int, ...]:
 
 
 def _at_positions(
-    model: ArrayModel, sentences: Sequence[Sequence[SourceWord]]
+    model: ArrayModel | Ensemble, sentences: Sequence[Sequence[SourceWord]]
 ) -> list[tuple[Hypothesis, ...]]:
     """The equal-length layout: the likeliest gloss at each position, up to the first END."""
     probability = model.positions(model.encode(sentences, SPARE))
@@ -305,7 +308,9 @@ def load_sentence_model(name: str, directory: Path | None = None) -> SentenceMod
 
     def build(card: dict[str, Any], weights: Weights) -> SentenceModel:
         vocabulary = Vocabulary.from_dict(card[_LISTS])
-        return SentenceModel(name, ArrayModel(NetworkConfig(**card["network"]), vocabulary, weights))
+        config = NetworkConfig(**card["network"])
+        kind = ArrayModel if config.members == 1 else Ensemble
+        return SentenceModel(name, kind(config, vocabulary, weights))
 
     return read_model(name, SCHEMA, directory, build)
 

@@ -157,6 +157,8 @@ class SpecialWords:
         reason: See `asked_reason`.
         introducing: Lemmas behind which a name stands ("me llamo Rosa").
         subject_tags: Ends of the tags of verbs that a name without an article may be the subject of.
+        sounds: By a pattern of what is typed by its sound, the spellings that sound so (`k`: `c qu`), "" for
+            a letter that is not written.
     """
 
     laughter: re.Pattern[str]
@@ -166,6 +168,32 @@ class SpecialWords:
     reason: tuple[str, ...]
     introducing: frozenset[str]
     subject_tags: tuple[str, ...]
+    sounds: dict[str, str]
+
+    @cached_property
+    def spellings(self) -> tuple[tuple[re.Pattern[str], tuple[str, ...]], ...]:
+        """`sounds`, to be looked for."""
+        return tuple((re.compile(sound), tuple(so.split()) or ("",)) for sound, so in self.sounds.items())
+
+
+@dataclass(frozen=True)
+class Neighbours:
+    """Words that tell what the word behind them is; `neighbours` in the file.
+
+    Attributes:
+        before_nouns: Forms behind which no finite verb stands, and no preposition that is a noun too.
+        before_masculine: Forms of which that holds where a masculine singular may follow: "el grito", but
+            "el llama" is typed for "él llama".
+        copulas: Lemmas of verbs behind which no finite verb stands.
+        degrees: Forms that may stand between a copula and what it says.
+        perfect: What is typed for a form of the perfect's verb, in haste, and that form ("me a dicho": ha).
+    """
+
+    before_nouns: frozenset[str]
+    before_masculine: frozenset[str]
+    copulas: frozenset[str]
+    degrees: frozenset[str]
+    perfect: dict[str, str]
 
 
 @dataclass(frozen=True)
@@ -194,6 +222,7 @@ class TextRules:
         numbers: How numbers are said and written.
         sentences: Words that tell kinds of sentence.
         words: Words that are read in a way of their own.
+        neighbours: Words that tell what stands behind them.
         glosses: Names of glosses.
     """
 
@@ -201,6 +230,7 @@ class TextRules:
     numbers: Numerals
     sentences: SentenceWords
     words: SpecialWords
+    neighbours: Neighbours
     glosses: GlossNames
 
     @classmethod
@@ -219,6 +249,7 @@ class TextRules:
             "numbers": Numerals,
             "sentences": SentenceWords,
             "words": SpecialWords,
+            "neighbours": Neighbours,
             "glosses": GlossNames,
         }
         read = read_sections(folder / _FILE, sections)

@@ -10,8 +10,10 @@ beside it makes it a name.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice, pairwise
 
 from teo_sign_translator.morphology import MAX_READINGS, Morphology, Reading
 from teo_sign_translator.text.cleaning import clean, is_drawn_out, shortened
@@ -84,6 +86,9 @@ def _opening_name(
     return others or tuple(readings)
 
 
+_FINITE = ("V:ind", "V:sub", "V:cond", "V:imp")
+_MASCULINE = re.compile("[NA]:[mc][sn]|V:part:ms")
+
 #: From so many words on, a capital on each of them is a habit of the writer's, not a row of names.
 _TITLE_CASE_WORDS = 5
 
@@ -100,8 +105,9 @@ class SourceWord:
         text: As typed. Words that one short form stands for have the same text (`EE. UU.`, `xfa`).
         form: What it says, in lower case with the accents that were typed: a short form or symbol in full
             (`sr.` is `señor`), a number in digits, also one of several words (`31`, `3,5`, `15:30`) or a
-            Roman one (`21`), a drawn-out word as it is written (`holaaaa` is `hola`). A mark is one of `,`
-            (any mark that is a short pause), `.`, `?`, `!`; opening marks are left out.
+            Roman one (`21`), a word typed as it is drawn out or sounds as it is written (`holaaaa` is `hola`,
+            `kasa` is `casa`). A mark is one of `,` (any mark that is a short pause), `.`, `?`, `!`; opening
+            marks are left out.
         capital: Whether it was typed with a capital that neither the beginning of a sentence, a mark before
             it nor capitals all over explain.
         readings: What it may be, most likely first; one to four. A mark's only one has the tag MARK.
@@ -157,7 +163,63 @@ def words_of_clauses(clauses: Sequence[Clause], morphology: Morphology) -> tuple
         following = words[place + 1].readings if place + 1 < len(words) else ()
         readings = _opening_name(_all_readings(words[place], morphology), following, special)
         words[place] = replace(words[place], readings=readings)
-    return tuple(_with_whole_names(words))
+    return tuple(_told_by_neighbours(_with_whole_names(words), morphology))
+
+
+def _told_by_neighbours(words: list[SourceWord], morphology: Morphology) -> list[SourceWord]:
+    """The words, without the readings that the word before them rules out, the perfect typed right."""
+    told = TextRules.load(morphology.folder).neighbours
+    for place, (word, following) in enumerate(pairwise(words)):
+        written = told.perfect.get(word.form)
+        if written and _is_participle(following, behind=words[place - 1] if place else None):
+            words[place] = replace(word, form=written, readings=morphology.readings(written))
+    if len(words) > 1 and words[1].is_mark:
+        words[0] = replace(words[0], readings=_as_order(words[0].readings))
+    behind_copula = False
+    before = ""
+    for place, word in enumerate(words):
+        nominal = tuple(filter(_is_nominal, word.readings))
+        masculine = any(_MASCULINE.match(reading.tag) for reading in nominal)
+        if before in told.before_nouns and not nominal:
+            words[place] = replace(word, readings=(Reading(word.form, "X", exact=False),))
+        elif behind_copula or before in told.before_nouns or (before in told.before_masculine and masculine):
+            words[place] = replace(word, readings=_without_verbs(word.readings, prepositions=behind_copula))
+        before = word.form
+        behind_copula = word.readings[0].lemma in told.copulas or (
+            behind_copula and word.form in told.degrees
+        )
+    return words
+
+
+def _as_order(readings: tuple[Reading, ...]) -> tuple[Reading, ...]:
+    """Readings of a word that is a clause of its own: of two verbs the one that is an order ("Ven, ...")."""
+    verbs = [reading for reading in readings if reading.tag.startswith(_FINITE)]
+    orders = tuple(reading for reading in verbs if reading.tag.startswith("V:imp"))
+    return orders if orders and len({reading.lemma for reading in verbs}) > 1 else readings
+
+
+def _is_participle(word: SourceWord, *, behind: SourceWord | None) -> bool:
+    """Whether a word is a verb's participle here; what may be a noun is one behind an object's pronoun."""
+    tags = [reading.tag for reading in word.readings if reading.exact]
+    object_before = behind is not None and any(
+        reading.tag.startswith(("PRON:obj", "PRON:refl")) for reading in behind.readings
+    )
+    return any(tag == "V:part:ms" for tag in (tags if object_before else tags[:1]))
+
+
+def _is_nominal(reading: Reading) -> bool:
+    return not reading.tag.startswith((*_FINITE, "PREP"))
+
+
+def _without_verbs(readings: tuple[Reading, ...], *, prepositions: bool) -> tuple[Reading, ...]:
+    """What a word may be that is no finite verb, and no preposition if it may be a noun; all if nothing."""
+    nouns = any(reading.tag.startswith("N:") for reading in readings)
+    kept = (
+        reading
+        for reading in readings
+        if not reading.tag.startswith(_FINITE) and not (reading.tag == "PREP" and nouns and not prepositions)
+    )
+    return tuple(kept) or readings
 
 
 def _with_whole_names(words: Sequence[SourceWord]) -> list[SourceWord]:
@@ -227,10 +289,53 @@ def _source_word(
         return SourceWord(text, form, capital, (Reading("X", "NUM"),))
     if not word.stands_for and is_drawn_out(form):
         form = _written(form, morphology)
+    elif not word.stands_for and not capital:
+        form = _written_for_sound(form, morphology)
     if " " in form:  # two words that a short form makes one ("por ciento"); no lexicon lists them
         return SourceWord(text, form, capital, (Reading(form, "X"),))
     readings = _name_readings(morphology.readings(form), text, capital=capital, introduced=introduced)
     return SourceWord(text, form, capital, readings)
+
+
+#: Sounds of one word that may be spelled otherwise ("kiziera"), and spellings that are tried: of most words
+#: in haste the first ten hold the right one.
+_MOST_SOUNDS, _MOST_SPELLINGS = 2, 300
+#: Shorter words are like too many others [letters].
+_SHORTEST_BY_SOUND = 3
+
+
+def _written_for_sound(form: str, morphology: Morphology) -> str:
+    """A word of no lexicon as the known word is written that sounds so, if there is one: `kasa` is `casa`.
+
+    Whoever types accents does not write by ear.
+    """
+    if len(form) < _SHORTEST_BY_SOUND or not form.isascii() or not form.isalpha():
+        return form
+    if any(reading.tag != "X" and reading.exact for reading in morphology.readings(form)):
+        return form
+    if morphology.knows(form):
+        return form
+    sounds = TextRules.load(morphology.folder).words.spellings
+    found = (each for each in islice(_spellings(form, sounds), _MOST_SPELLINGS) if morphology.knows(each))
+    return next(found, form)
+
+
+def _spellings(form: str, sounds: Sequence[tuple[re.Pattern[str], tuple[str, ...]]]) -> Iterator[str]:
+    """A word with one of its sounds spelled otherwise, then with two."""
+    seen = {form}
+    before = [form]
+    for _ in range(_MOST_SOUNDS):
+        others = []
+        for written in before:
+            for sound, spellings in sounds:
+                for match in sound.finditer(written):
+                    for spelling in spellings:
+                        other = written[: match.start()] + spelling + written[match.end() :]
+                        if other not in seen:
+                            seen.add(other)
+                            others.append(other)
+                            yield other
+        before = others
 
 
 def _written(form: str, morphology: Morphology) -> str:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 from collections.abc import Callable
 from pathlib import Path
@@ -19,6 +20,8 @@ from teo_sign_translator.model_files import available_models
 from teo_sign_translator.pointer import load_sentence_model
 from teo_sign_translator.pointer.config import POINTER
 from teo_sign_translator.pointer.decoding import save_sentence_model
+from teo_sign_translator.pointer.ensemble import member_weights
+from teo_sign_translator.pointer.vocabulary import START_INDEX
 
 
 @pytest.fixture(scope="module")
@@ -47,6 +50,40 @@ def test_a_saved_model_says_the_same_after_loading(trained: Fit, tmp_path: Path)
         assert glosses_of(expected) == glosses_of(got)
         assert expected.log_probability == pytest.approx(got.log_probability, abs=0.02)  # half precision
     assert sorted(path.name for path in tmp_path.iterdir()) == ["small.json", "small.safetensors"]
+
+
+def test_two_networks_in_one_file_say_the_mean_of_what_each_says(trained: Fit, tmp_path: Path) -> None:
+    other = fit_small(POINTER, sentence_pairs(50), epochs=1, seed=7)
+    assert other.vocabulary == trained.vocabulary
+    save_sentence_model(
+        "both",
+        tmp_path,
+        config=dataclasses.replace(small_config(POINTER), members=2),
+        vocabulary=trained.vocabulary,
+        weights=member_weights([trained.weights, other.weights]),
+        card={},
+    )
+    loaded = load_sentence_model("both", tmp_path)
+    alone = [small_model(POINTER, each) for each in (trained, other)]
+    for pair in sentence_pairs(10):
+        words = read(pair.text)
+        steps = []
+        for model in (*alone, loaded):
+            memory = model.arrays.encode([words])
+            steps.append(model.arrays.step(memory, np.array([START_INDEX]), memory.first).probability)
+        np.testing.assert_allclose(steps[2], (steps[0] + steps[1]) / 2, atol=2e-3)  # half precision
+        assert loaded.translate(words, beam=3)[0].log_probability <= 0.0
+
+
+def test_a_file_that_lacks_a_network_is_refused(trained: Fit, tmp_path: Path) -> None:
+    config = dataclasses.replace(small_config(POINTER), members=2)
+    weights = member_weights([trained.weights])
+    save_sentence_model(
+        "half", tmp_path, config=config, vocabulary=trained.vocabulary, weights=weights, card={}
+    )
+    with pytest.raises(TranslationError, match="expected finite weights") as error:
+        load_sentence_model("half", tmp_path)
+    assert error.value.code == "invalid_model"
 
 
 @pytest.mark.parametrize("name", ["large", "../small", ""])

@@ -10,6 +10,8 @@ from hypothesis import strategies as st
 
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
+from teo_sign_translator.morphology.lexicon import adjectives, nouns
+from teo_sign_translator.text.rules import TextRules
 from teo_sign_translator.text.source_words import SourceWord, source_words
 
 MORPHOLOGY = Morphology.load()
@@ -128,3 +130,69 @@ def test_any_text_can_be_read(text: str) -> None:
     for word in words:
         assert word.text and word.form and 1 <= len(word.readings) <= 4
         assert word.is_mark == (word.form in (",", ".", "?", "!"))
+
+
+@pytest.mark.parametrize(
+    ("sentence", "forms"),
+    [
+        ("oye kedamos en el parke", "oye|quedamos|en|el|parque"),
+        ("estoi mui vien en kasa", "estoy|muy|bien|en|casa"),
+        ("weno kisiera ablar kon mi ermana", "bueno|quisiera|hablar|con|mi|hermana"),
+        ("muxas grasias", "muchas|gracias"),
+        ("Muxo es mi apellido: Ana Muxo", "mucho|es|mi|apellido|,|ana|muxo"),
+        ("el señor Veloz y la cesión", "el|señor|veloz|y|la|cesión"),
+        ("no me as contestado", "no|me|has|contestado"),
+        ("mi madre a comprado pan", "mi|madre|ha|comprado|pan"),
+        ("se a pedido un taxi", "se|ha|pedido|un|taxi"),
+        ("voy a casa de lado a lado", "voy|a|casa|de|lado|a|lado"),
+        ("es un as de oros", "es|un|as|de|oros"),
+    ],
+)
+def test_what_is_typed_by_its_sound_is_read_as_it_is_written(sentence: str, forms: str) -> None:
+    assert "|".join(_forms(sentence)) == forms
+
+
+def test_no_word_of_the_lexicon_is_taken_for_another_that_sounds_so() -> None:
+    words = [noun.lemma for noun in nouns()] + [adjective.lemma for adjective in adjectives()]
+    short = TextRules.load().expressions
+    single = [word for word in words if word.isalpha() and not short.stands_for(word)]
+    assert len(single) > 4000
+    assert [word for word in single if _forms(f"veo {word}")[1:] != [word]] == []
+
+
+@pytest.mark.parametrize(
+    ("sentence", "word", "impossible"),
+    [
+        ("el grito me asustó", "grito", "V:"),
+        ("su cuesta es larga", "cuesta", "V:"),
+        ("dentro del sobre", "sobre", "PREP"),
+        ("el trabajo es muy duro", "duro", "V:"),
+        ("ningún abrazo", "abrazo", "V:"),
+    ],
+)
+def test_a_neighbour_rules_out_what_a_word_cannot_be(sentence: str, word: str, impossible: str) -> None:
+    (found,) = (each for each in _read(sentence) if each.form == word)
+    assert not [reading for reading in found.readings if reading.tag.startswith(impossible)]
+
+
+@pytest.mark.parametrize(
+    ("sentence", "word", "possible"),
+    [
+        ("el libro sobre la mesa", "sobre", "PREP"),
+        ("grito mucho", "grito", "V:"),
+        ("la llama el lunes", "llama", "V:"),
+        ("el que llama", "llama", "V:"),
+        ("el llama a su madre", "llama", "V:"),  # él
+        ("el vive en casa", "vive", "V:"),
+        ("el beber agua", "beber", "V:inf"),
+        ("es bajo", "bajo", "A:"),
+    ],
+)
+def test_where_both_may_stand_both_are_read(sentence: str, word: str, possible: str) -> None:
+    (found,) = (each for each in _read(sentence) if each.form == word)
+    assert [reading for reading in found.readings if reading.tag.startswith(possible)]
+
+
+def test_a_verb_that_stands_alone_is_an_order() -> None:
+    assert {reading.lemma for reading in _read("Ven, que es tarde.")[0].readings} == {"venir"}
+    assert {reading.lemma for reading in _read("Ven la película.")[0].readings} == {"venir", "ver"}

@@ -47,7 +47,7 @@ def run(
     where = named_device(device)
     language = load_language(DEFAULT_LANGUAGE)
     read = partial(source_words, morphology=Morphology.load(language.text))
-    networks = {name: network_config(name) for name in model or ZOO}
+    networks = {name: dataclasses.replace(network_config(name), members=1) for name in model or ZOO}
     config = TrainingConfig(seed=seed, epochs=epochs)
     data = load_training_data(corpus, read, pairs, seed, language)
     command = f"ros2 run teo_sign_translator compare --pairs {pairs} --epochs {epochs} --seed {seed}"

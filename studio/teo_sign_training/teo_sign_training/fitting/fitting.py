@@ -35,9 +35,9 @@ from teo_sign_translator.pointer.decoding import SPARE
 from teo_sign_translator.pointer.vocabulary import Vocabulary, tag_key
 
 #: By name, from the simplest on. The first ones are the layouts of Figure 1 of arXiv:1907.04198, then its
-#: future work. All read the same words and readings, so that a row of `compare` differs from the next by its
-#: mechanism alone. The equal-length layout reads from both ends: its first gloss stands at the first word,
-#: and may be said by the last.
+#: future work. All read the same words and readings, so that a row of `compare`, which trains one network of
+#: each, differs from the next by its mechanism alone. The equal-length layout reads from both ends: its first
+#: gloss stands at the first word, and may be said by the last.
 ZOO = MappingProxyType(
     {
         "rnn_equal": NetworkConfig(cell="rnn", layout="equal_length", bidirectional=True),
@@ -49,7 +49,7 @@ ZOO = MappingProxyType(
         "gru_attention": NetworkConfig(cell="gru", bidirectional=True, attention=True),
         "lstm_attention": NetworkConfig(cell="lstm", bidirectional=True, attention=True),
         "pointer_gru": NetworkConfig(cell="gru", bidirectional=True, attention=True, copy=True),
-        POINTER: NetworkConfig(cell="lstm", bidirectional=True, attention=True, copy=True),
+        POINTER: NetworkConfig(cell="lstm", bidirectional=True, attention=True, copy=True, members=2),
     }
 )
 

@@ -24,6 +24,7 @@ from teo_sign_training.fitting.fitting import Fit, TrainingConfig, TrainingProgr
 from teo_sign_training.fitting.metrics import Score, score
 from teo_sign_translator.pointer.config import NetworkConfig
 from teo_sign_translator.pointer.decoding import SentenceModel, load_sentence_model, save_sentence_model
+from teo_sign_translator.pointer.ensemble import member_weights
 
 #: Pairs of a held-out split that are translated to score a model: 2,000 give a standard error of 1 % at most.
 SCORED = 2000
@@ -118,16 +119,22 @@ def train_model(
     dev = sample(data.held_out["dev"], SCORED, config.seed)
     columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn(), TimeRemainingColumn())
     with Progress(*columns, console=console) as bar:
-        task = bar.add_task(name, total=config.epochs)
+        task = bar.add_task(name, total=config.epochs * network.members)
+        fits: list[Fit] = []
 
         def show(progress: TrainingProgress) -> None:
-            done = progress.epoch - 1 + progress.step / progress.steps
-            text = f"{name}: epoch {progress.epoch}, loss {progress.loss:.4f}"
+            done = len(fits) * config.epochs + progress.epoch - 1 + progress.step / progress.steps
+            text = f"{name}: member {len(fits) + 1}, epoch {progress.epoch}, loss {progress.loss:.4f}"
             bar.update(task, completed=done, description=text)
             if progress.step == progress.steps and progress.dev_loss is not None:
                 bar.console.print(f"{text}, dev loss {progress.dev_loss:.4f}", highlight=False)
 
-        fitted = fit(data.train, dev, data.by_heart, read, network, config, device=device, on_progress=show)
+        for member in range(network.members):
+            own = dataclasses.replace(config, seed=config.seed + member)
+            fits.append(
+                fit(data.train, dev, data.by_heart, read, network, own, device=device, on_progress=show)
+            )
+    fitted = fits[0]
     card = {
         "description": f"Reads {data.language.spoken.name} words with their readings, says "
         f"{data.language.names.short} glosses; see pointer/config.py.",
@@ -149,10 +156,10 @@ def train_model(
         },
     }
     result = {
-        "losses": _rounded(fitted.losses),
-        "dev_losses": _rounded(fitted.dev_losses),
-        "best_epoch": fitted.best_epoch,
-        "seconds": round(fitted.seconds, 1),
+        "losses": [_rounded(each.losses) for each in fits],
+        "dev_losses": [_rounded(each.dev_losses) for each in fits],
+        "best_epoch": [each.best_epoch for each in fits],
+        "seconds": round(sum(each.seconds for each in fits), 1),
         "pairs_per_second": round(fitted.pairs_per_second),
     }
 
@@ -162,7 +169,7 @@ def train_model(
             out,
             config=network,
             vocabulary=fitted.vocabulary,
-            weights=fitted.weights,
+            weights=member_weights([each.weights for each in fits]) if len(fits) > 1 else fitted.weights,
             card={**card, "result": result},
         )
 

@@ -57,7 +57,7 @@ def test_train_writes_a_model_that_says_what_made_it(
     assert card["made_by"]["torch"]
     assert card["made_by"]["commit"]
     assert set(card["result"]["scores"]) == {"dev", "test_words", "test_both"}
-    assert len(card["result"]["losses"]) == 1
+    assert [len(losses) for losses in card["result"]["losses"]] == [1, 1]  # of each of its networks
     assert "TÚ" in card["lexis"]["glosses"]  # which the paper's pairs say without a word
 
 
