@@ -27,9 +27,9 @@ PARTS = re.compile(r"(?<=[.?!…])\s+|[;\"“”«»]")
 # Translations that are accepted for one sentence. A judge of sentences that nobody has seen names few; the
 # others were written more generously.
 MOST_ACCEPTED = {"blind": 6, "known": 200}
-# Known sentences that must come out as accepted. The shipped translator has 810 of the 1122: a mend of one
+# Known sentences that must come out as accepted. The shipped translator has 900 of the 1281: a mend of one
 # sentence may cost another one or two, what costs more is a loss.
-FLOOR = 806
+FLOOR = 896
 
 
 def lines(root: Path, name: str) -> list[str]:

@@ -139,7 +139,7 @@ class FunctionWords:
     def __init__(self, lemmas: dict[str, frozenset[str]]) -> None:
         """Take lemmas by the beginning of the tag that they must have; `*` among them stands for all."""
         self._lemmas = dict(lemmas)
-        self._by_tag: dict[str, frozenset[str]] = {}
+        self._by_tag: dict[tuple[str, bool], frozenset[str]] = {}
 
     @classmethod
     def load(cls, path: Path) -> FunctionWords:
@@ -166,11 +166,18 @@ class FunctionWords:
         return word.is_mark or any(self.lists(reading) for reading in word.readings if plain or reading.exact)
 
     def lists(self, reading: Reading) -> bool:
-        """Whether this reading is that of a function word."""
-        found = self._by_tag.get(reading.tag)
+        """Whether this reading is that of a function word.
+
+        A verb that is one in some of its forms alone counts only as typed: "media" is hardly "medía".
+        """
+        found = self._by_tag.get((reading.tag, reading.exact))
         if found is None:
-            listed = [lemmas for tag, lemmas in self._lemmas.items() if _begins(reading.tag, tag)]
-            found = self._by_tag[reading.tag] = frozenset[str]().union(*listed)
+            listed = [
+                lemmas
+                for tag, lemmas in self._lemmas.items()
+                if _begins(reading.tag, tag) and (reading.exact or not tag.startswith("V:"))
+            ]
+            found = self._by_tag[reading.tag, reading.exact] = frozenset[str]().union(*listed)
         return _ANY in found or reading.lemma in found
 
 
