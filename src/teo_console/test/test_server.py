@@ -113,6 +113,38 @@ async def test_what_the_page_loads_is_sent_compressed(server: Server, _: aiohttp
 
 
 @with_server
+async def test_what_the_browser_has_is_told_without_a_body_and_the_connection_goes_on(
+    server: Server, _: aiohttp.ClientSession
+) -> None:
+    host = server.url.removeprefix("http://")
+    reader, writer = await asyncio.open_connection(*host.split(":"))
+
+    async def ask(method: str, more: str = "") -> tuple[str, dict[str, str], bytes]:
+        told = f"{method} /js/main.js HTTP/1.1\r\nHost: {host}\r\nAccept-Encoding: gzip\r\n{more}\r\n"
+        writer.write(told.encode())
+        first, *lines = (await reader.readuntil(b"\r\n\r\n")).decode().strip().split("\r\n")
+        headers = dict(line.lower().split(": ", 1) for line in lines)
+        body = b""
+        while method == "GET" and headers.get("transfer-encoding") == "chunked":
+            size = int(await reader.readline(), 16)
+            body += (await reader.readexactly(size + 2))[:-2]
+            if not size:
+                break
+        return first.split()[1], headers, body
+
+    status, headers, body = await ask("GET")
+    assert status == "200" and zlib.decompress(body, wbits=47) == (WEB / "js/main.js").read_bytes()
+    for more in (
+        f"If-None-Match: {headers['etag']}\r\n",
+        f"If-Modified-Since: {headers['last-modified']}\r\n",
+    ):
+        assert (await ask("GET", more))[0] == "304"
+        assert (await ask("HEAD"))[0] == "200"
+        assert (await ask("GET"))[2] == body  # the next answer begins where that one ended
+    writer.close()
+
+
+@with_server
 async def test_no_file_outside_the_page_is_given_out(server: Server, session: aiohttp.ClientSession) -> None:
     for path in ("/../setup.py", "/%2e%2e/setup.py", "/js/..%2f..%2fsetup.py", "//etc/passwd", "/js/"):
         url = aiohttp.client.URL(server.url + path, encoded=True)

@@ -20,6 +20,9 @@ from teo_console.server.hub import Hub
 # Ends of addresses whose answer is text.
 _TEXT = ("/", ".css", ".html", ".js", ".json", ".svg", ".urdf")
 
+# Headers of requests that may be answered by less than the whole.
+_PARTIAL = ("If-None-Match", "If-Modified-Since", "Range")
+
 # Bytes of a request's body: JSON of a form. A route that takes films reads a stream, with a limit of its own.
 _BODY_BYTES = 64 * 1024
 
@@ -79,7 +82,10 @@ async def _compressed(request: web.Request, handler: _Handler) -> web.StreamResp
     """Send text in the coding that the browser takes: of 870 kB a telephone fetches 240."""
     response = await handler(request)
     empty = isinstance(response, web.Response) and not response.body
-    if request.path.endswith(_TEXT) and not response.prepared and not empty:
+    # With a file that the browser has already, aiohttp would send a body where none may be, and the next answer
+    # on that connection would be lost.
+    whole = request.method == "GET" and not any(name in request.headers for name in _PARTIAL)
+    if request.path.endswith(_TEXT) and whole and not response.prepared and not empty:
         response.enable_compression()
     return response
 
