@@ -82,8 +82,8 @@ async def _compressed(request: web.Request, handler: _Handler) -> web.StreamResp
     """Send text in the coding that the browser takes: of 870 kB a telephone fetches 240."""
     response = await handler(request)
     empty = isinstance(response, web.Response) and not response.body
-    # With a file that the browser has already, aiohttp would send a body where none may be, and spoil the next
-    # answer on that connection.
+    # With a file that the browser has already, aiohttp would send a body where none may be, and so spoil the
+    # next answer on that connection.
     whole = request.method == "GET" and not any(name in request.headers for name in _PARTIAL)
     if request.path.endswith(_TEXT) and whole and not response.prepared and not empty:
         response.enable_compression()
