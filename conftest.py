@@ -41,6 +41,7 @@ _DOMAINS = range(20, 102)
 
 
 _STUDIO = Path(__file__).parent / "studio"
+_CONSOLE = Path(__file__).parent / "src" / "teo_console" / "test"
 
 # Signs and tables that tests of several packages use.
 pytest_plugins = ["made_signs"]
@@ -57,6 +58,9 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             item.add_marker("dds")
         if item.path.is_relative_to(_STUDIO):
             item.add_marker("slow")
+        # Without a graphics card a browser takes both cores, and the demo's film one: one after the other.
+        draws = item.path.is_relative_to(_CONSOLE) or item.path.name == "test_demo.py"
+        item.add_marker(pytest.mark.xdist_group("drawing" if draws else str(item.path)))
 
 
 @pytest.fixture(autouse=True)
