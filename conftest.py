@@ -47,6 +47,7 @@ _CONSOLE = Path(__file__).parent / "src" / "teo_console" / "test"
 pytest_plugins = ["made_signs"]
 
 
+@pytest.hookimpl(tryfirst=True)  # before xdist looks for groups
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark tests by what they take.
 
