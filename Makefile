@@ -43,7 +43,7 @@ test: setup ## the tests, without the slow ones: first what keeps no time with o
 
 slow: setup ## the tests that take long
 	@$(ENV) python -m pytest -m "slow and not dds and not commands" --numprocesses 2 --dist worksteal
-	@$(ENV) python -m pytest -m "slow and dds and not commands" --numprocesses 2 --dist loadgroup
+	@$(ENV) python -m pytest -m "slow and dds and not commands" --numprocesses 2 --dist loadfile
 
 commands: setup ## the commands of every page, as they stand there
 	@$(ENV) python -m pytest -m commands --numprocesses 2 --maxschedchunk 1

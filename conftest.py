@@ -47,7 +47,6 @@ _CONSOLE = Path(__file__).parent / "src" / "teo_console" / "test"
 pytest_plugins = ["made_signs"]
 
 
-@pytest.hookimpl(tryfirst=True)  # before xdist looks for groups
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark tests by what they take.
 
@@ -59,9 +58,21 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             item.add_marker("dds")
         if item.path.is_relative_to(_STUDIO):
             item.add_marker("slow")
-        # Without a graphics card a browser takes both cores, and the demo's film one: one after the other.
-        draws = item.path.is_relative_to(_CONSOLE) or item.path.name == "test_demo.py"
-        item.add_marker(pytest.mark.xdist_group("drawing" if draws else str(item.path)))
+
+
+@pytest.fixture(scope="module", autouse=True)
+def room_to_draw(request: pytest.FixtureRequest) -> Iterator[None]:
+    """Keeps the demo from running beside a browser.
+
+    Without a graphics card a browser takes both cores, and the demo's film one: its sentences came too late.
+    """
+    demo = request.path.name == "test_demo.py"
+    if not demo and not request.path.is_relative_to(_CONSOLE):
+        yield
+        return
+    with (Path(tempfile.gettempdir()) / "teo_test_drawing").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX if demo else fcntl.LOCK_SH)
+        yield
 
 
 @pytest.fixture(autouse=True)
