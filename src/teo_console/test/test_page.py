@@ -332,6 +332,7 @@ DRAWN_IN_ANOTHER_SIZE = """async () => {
 def test_the_robot_is_seen_from_three_places_as_in_a_mirror_and_slower(new_page: NewPage) -> None:
     page = new_page()
     wait_until_ready(page)
+    page.wait_for_selector(".stage canvas")  # else there is nothing yet that could be hidden
     page.wait_for_selector(".stage .empty", state="hidden")
     assert page.evaluate(DRAWN_IN_ANOTHER_SIZE) > 1000
     drawn: list[NDArray[np.int16]] = []
