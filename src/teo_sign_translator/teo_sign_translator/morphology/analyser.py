@@ -89,6 +89,8 @@ class Morphology:
 
     def knows(self, form: str) -> bool:
         """Whether a word in lower case is one of everyday use, written so or with accents left out."""
+        if len(form) > _LONGEST_WORD:
+            return False
         found = self._candidates(form, strip_marks(form), capital=False)
         return any(each.effort in (EXACT, ACCENTS_MISSING) and each.source != NAME for each in found)
 

@@ -20,7 +20,6 @@ from teo_sign_translator.text.source_words import SourceWord
 #: Classes of nouns that may do what a verb says, so that they could be taken for its subject.
 _DOERS = frozenset({"person", "family", "profession", "animal", "group"})
 _PERSONS = ("PRON", "NAME")
-_NO_PERSONS = ("PRON:rel", "PRON:dem", "PRON:ind", "NAME:place")
 
 
 class Topics:

@@ -297,8 +297,8 @@ def _source_word(
     return SourceWord(text, form, capital, readings)
 
 
-#: Sounds of one word that may be spelled otherwise ("kiziera"), and spellings that are tried: of most words
-#: in haste the first ten hold the right one.
+#: Sounds of one word that may be spelled otherwise ("kisiera", "vien"), and spellings that are tried: half a
+#: millisecond for a word that is none.
 _MOST_SOUNDS, _MOST_SPELLINGS = 2, 300
 #: Shorter words are like too many others [letters].
 _SHORTEST_BY_SOUND = 3

@@ -152,6 +152,10 @@ def test_what_is_typed_by_its_sound_is_read_as_it_is_written(sentence: str, form
     assert "|".join(_forms(sentence)) == forms
 
 
+def test_a_text_without_a_blank_is_not_looked_for_by_its_sound() -> None:
+    assert _forms("kasa" * 4000) == ["kasa" * 4000]
+
+
 def test_no_word_of_the_lexicon_is_taken_for_another_that_sounds_so() -> None:
     words = [noun.lemma for noun in nouns()] + [adjective.lemma for adjective in adjectives()]
     short = TextRules.load().expressions
