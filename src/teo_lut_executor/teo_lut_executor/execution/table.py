@@ -9,7 +9,7 @@ An event comes with what its action takes, e.g. the plan or the reason; see the 
 from __future__ import annotations
 
 import enum
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from teo_lut_executor.execution import signing, stopping
@@ -263,23 +263,24 @@ def happen(work: Work, event: Event, given: object = None) -> list[Effect]:
 
 
 def printed() -> str:
-    """The table as Markdown, after lists of what its states and events mean."""
+    """The table as Markdown, after a list of what its states mean."""
     states = [f"| {_name(state)} | {state.value} |" for state in State]
     lines = ["| state | meaning |", "|---|---|", *states, ""]
-    names = " | ".join(_name(state) for state in State)
-    lines += [f"| event | {names} |", "|" + "---|" * (len(State) + 1)]
+    lines += ["| event | in which state: what is done → the state after it |", "|---|---|"]
     for event, row in TABLE.items():
-        cells = (_printed_cell(state, cell) for state, cell in row.items())
-        lines.append(f"| {event.value} | {' | '.join(cells)} |")
+        answers: dict[_Cell, list[State]] = {}
+        for state, cell in row.items():
+            if cell != _Cell(_nothing, state):
+                answers.setdefault(cell, []).append(state)
+        lines.append(f"| {event.value} | {'; '.join(_printed(*answer) for answer in answers.items())} |")
     return "\n".join(lines) + "\n"
 
 
-def _printed_cell(state: State, cell: _Cell) -> str:
-    if cell == _Cell(_nothing, state):
-        return "–"
-    action = "" if cell.action is _nothing else cell.action.__name__.replace("_", " ")
-    after = "" if cell.after is state else f"→ **{_name(cell.after)}**"
-    return f"{action} {after}".strip()
+def _printed(cell: _Cell, states: Sequence[State]) -> str:
+    before = "always" if len(states) == len(State) else ", ".join(map(_name, states))
+    action = "" if cell.action is _nothing else f" {cell.action.__name__.replace('_', ' ')}"
+    after = "" if set(states) == {cell.after} else f" → **{_name(cell.after)}**"
+    return f"{before}:{action}{after}"
 
 
 def _name(state: State) -> str:
