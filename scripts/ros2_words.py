@@ -23,7 +23,7 @@ Which verbs and options of ros2cli 0.32 and rosbag2 0.26 (ROS 2 Jazzy) this pack
 explains them. `scripts/ros2_words.py` makes this page from the genuine command's words
 ([genuine_words.yaml](test/golden/genuine_words.yaml)) and from this one's own parsers; a test compares them.
 `--no-daemon` is accepted: there is no daemon. A verb or an option that is missing is refused with the usage
-and status 2.
+and status 2. Verbs that these tables do not name have every option.
 
 """
 # Every verb that looks at the graph takes these; some genuine ones do not.
@@ -48,7 +48,7 @@ def words_table() -> str:
         (command, verb): options for command, verbs in genuine.items() for verb, options in verbs.items()
     }
     assert own.keys() <= wanted.keys(), "a verb that the genuine command lacks"
-    rows: dict[str, list[str]] = {"same": [], "other": [], "absent": []}
+    rows: dict[str, list[str]] = {"other": [], "absent": []}
     for words, theirs in sorted(wanted.items()):
         name = f"`{' '.join(filter(None, words))}`"
         if words not in own:
@@ -61,11 +61,8 @@ def words_table() -> str:
         added = [option for option in own[words] if option not in theirs and option not in _ACCEPTED]
         if missing or added:
             rows["other"].append(f"| {name} | {_list(missing)} | {_list(added)} |\n")
-        else:
-            rows["same"].append(name)
     return (
-        f"{_HEAD}With every option: {', '.join(rows['same'])}.\n\n"
-        f"| with other options | missing | only here |\n|---|---|---|\n{''.join(rows['other'])}\n"
+        f"{_HEAD}| with other options | missing | only here |\n|---|---|---|\n{''.join(rows['other'])}\n"
         f"| missing | why |\n|---|---|\n{''.join(rows['absent'])}"
     )
 
