@@ -142,6 +142,10 @@ SERVICES = (
         "Follow one person as the signer; -1: choose by the rule again",
     ),
     Interface("capture_sign", "teo_sign_msgs/CaptureSign", "Record a sign of the signer and save it"),
+    *(
+        Interface(f"{node}/set_parameters", "rcl_interfaces/SetParameters", "Chooses the sign language")
+        for node in ("executor", "translator")
+    ),
 )
 ACTIONS = (
     Interface(

@@ -46,6 +46,7 @@ def who_may(folder: Path, act: str, topic: str) -> set[str]:
         ("publish", "rq/stopRequest", {"console", "executor", "operator"}),
         ("publish", "rr/stopReply", {"driver"}),
         ("publish", "rq/teo_sim_driver/set_parametersRequest", set()),
+        ("publish", "rq/executor/set_parametersRequest", {"console"}),
         ("subscribe", "rq/teo_sim_driver/set_parametersRequest", {"driver"}),
         ("subscribe", "rt/joint_trajectory", {"driver", "recorder", "operator"}),
         ("subscribe", "rt/camera/color/image_raw", {"retriever", "recorder", "operator"}),

@@ -95,7 +95,15 @@ class FetchSign(Request, frozen=True, tag="get_sign"):
     gloss: Gloss
 
 
-FromPage = SignText | SignGlosses | Command | SetSpeed | ConfirmSpoken | DiscardSpoken | FetchSign
+class SetLanguage(Request, frozen=True, tag="set_language"):
+    """Have translator and executor change to another sign language."""
+
+    language: Name
+
+
+FromPage = (
+    SignText | SignGlosses | Command | SetSpeed | ConfirmSpoken | DiscardSpoken | FetchSign | SetLanguage
+)
 
 _DECODER = msgspec.json.Decoder(FromPage)
 
@@ -255,6 +263,10 @@ class Names(Struct, frozen=True, kw_only=True):
     """BCP 47 tag of the language of the texts, "es": a browser knows its name in any language."""
     example: str
     """A text to try."""
+    language: str
+    """Of the sign language, its ISO 639-3 code."""
+    languages: dict[str, str]
+    """Sign languages that this robot has signs of: their short names by code."""
 
 
 class Welcome(Struct, frozen=True, kw_only=True, tag_field="type", tag="welcome"):

@@ -145,6 +145,11 @@ class SpokenTexts:
 _TASKS: dict[str, NodeRole] = {"texts": "translator", "sentences": "executor", "joints": "driver"}
 
 
+def diagnosed_node(name: str) -> NodeRole | None:
+    """Whose health a status of `diagnostics` tells, by its name; None: that of a stranger."""
+    return _TASKS.get(name.rpartition(": ")[2])
+
+
 class SharedSituation:
     """Takes what the nodes say, gives what pages show."""
 
@@ -175,7 +180,7 @@ class SharedSituation:
 
     def diagnosis(self, name: str, level: Level, message: str, now: float) -> None:
         """Take one status of `diagnostics`; those of others are passed over."""
-        role = _TASKS.get(name.rpartition(": ")[2])
+        role = diagnosed_node(name)
         if role is not None:
             if role != "driver":  # whose joint states tell sooner
                 self._liveness.heard(role, now)

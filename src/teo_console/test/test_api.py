@@ -12,6 +12,8 @@ from typing import Any
 import pytest
 from console_api import Api
 
+from teo_console.jobs.commands import Commands
+
 BAG = b"\x89MCAP0\r\n" + bytes(1000)
 
 
@@ -48,6 +50,16 @@ def test_a_reviewer_says_what_it_was_before_reading_it_and_the_export_has_it(api
     _, figures = api.ask("GET", f"/api/series/{series}/report")
     assert figures["recognised"][0] == 1.0
     assert len(figures["anchors"]) == 3
+
+
+def test_what_was_said_of_another_language_or_robot_is_kept_apart(api: Api) -> None:
+    series = api.add_series("review", "CASA")
+    for other in (Commands(robot="teo", language="ase"), Commands(robot="gr1t2", language="ssp")):
+        api.use(other)
+        assert api.ask("GET", "/api/series") == (200, [])
+        assert api.ask("GET", f"/api/series/{series}/report")[0] == 404
+    api.use(Commands(robot="teo", language="ssp"))
+    assert [each["id"] for each in api.ask("GET", "/api/series")[1]] == [series]
 
 
 @pytest.mark.parametrize(

@@ -369,6 +369,26 @@ def test_what_did_not_come_while_the_node_was_gone_is_asked_for_again(new_page: 
 
 
 @pytest.mark.slow
+def test_the_sign_language_is_chosen_while_the_nodes_run_and_every_page_speaks_of_it(
+    new_page: NewPage,
+) -> None:
+    page, other = new_page(), new_page(tab="teach")
+    wait_until_ready(page)
+    page.focus("#sign-language")
+    page.select_option("#sign-language", "ase")
+    for each in (page, other):
+        expect(each.locator(".brand")).to_have_text("TEO signa en ASL")
+    expect(page.locator("#sign-language")).to_be_focused()  # the page was said anew
+    sign(page, "My name is Eva.")
+    expect(page.locator(".token.lit")).to_be_visible()
+    glosses = page.locator(".token").evaluate_all("items => items.map((item) => item.dataset.gloss)")
+    assert glosses == ["MY", "NAME", "E", "V", "A"]
+    page.select_option("#sign-language", "ssp")
+    expect(other.locator(".brand")).to_have_text("TEO signa en LSE")
+    wait_until_ready(page)
+
+
+@pytest.mark.slow
 def test_a_node_that_dies_is_named_at_once(new_page: NewPage, graph: Graph) -> None:
     page = new_page()
     wait_until_ready(page)

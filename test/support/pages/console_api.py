@@ -24,7 +24,9 @@ from teo_console.server.hub import Hub
 from teo_console.server.thread import ServerThread
 
 WEB = Path(__file__).parents[3] / "src" / "teo_console" / "web"
-NAMES = Names(robot="TEO", signs="LSE", spoken="es", example="Hola.")
+NAMES = Names(
+    robot="TEO", signs="LSE", spoken="es", example="Hola.", language="ssp", languages={"ssp": "LSE"}
+)
 PATIENCE = 60.0  # [s] for an answer on a loaded machine
 
 
@@ -55,6 +57,14 @@ class Api:
         app.on_cleanup.append(clear_up)
         return app
 
+    def use(self, commands: Commands) -> None:
+        """Work on another language or robot."""
+
+        async def go() -> None:
+            self.workbench.use(commands)
+
+        asyncio.run_coroutine_threadsafe(go(), self.thread.loop).result(PATIENCE)
+
     def add_series(
         self, kind: str, *meanings: str, choices: tuple[str, ...] = (), hashes: Mapping[str, str] = {}
     ) -> str:
@@ -80,7 +90,7 @@ class Api:
         ]
 
         async def add() -> str:
-            return self.workbench.reviews.add_series(kind, "", items, 1)  # type: ignore[arg-type]
+            return self.workbench.table.reviews.add_series(kind, "", items, 1)  # type: ignore[arg-type]
 
         return asyncio.run_coroutine_threadsafe(add(), self.thread.loop).result(PATIENCE)
 

@@ -30,16 +30,16 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
     films = workbench.folders.cache / "films"
 
     async def signs(_: web.Request) -> Any:
-        return list((await workbench.signs.signs()).values())
+        return list((await workbench.table.signs.signs()).values())
 
     async def want_film(request: web.Request) -> Any:
-        sign = await workbench.signs.get((await body(request, WithGloss)).gloss)
+        sign = await workbench.table.signs.get((await body(request, WithGloss)).gloss)
         path = films / f"{sign.motion_hash}.mp4"
         told: dict[str, Any] = {"film": f"/api/films/{path.name}", "job": None}
         if not path.exists():
             films.mkdir(parents=True, exist_ok=True)
             told["job"] = workbench.jobs.told(
-                workbench.jobs.submit(workbench.commands.film(sign.gloss, path))
+                workbench.jobs.submit(workbench.table.commands.film(sign.gloss, path))
             )
         return told
 
@@ -54,7 +54,7 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
 
     async def coverage(request: web.Request) -> Any:
         wanted = await body(request, _WantCoverage)
-        return workbench.jobs.told(workbench.jobs.submit(workbench.commands.coverage(wanted.text)))
+        return workbench.jobs.told(workbench.jobs.submit(workbench.table.commands.coverage(wanted.text)))
 
     return [
         web.get("/api/signs", answering(signs)),

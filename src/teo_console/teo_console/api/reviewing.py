@@ -14,12 +14,12 @@ from typing import Annotated, Any
 from aiohttp import web
 from msgspec import Meta, Struct
 
-from teo_console.api.workbench import Preparation, Workbench, gloss_key
+from teo_console.api.workbench import Preparation, Table, Workbench, gloss_key
 from teo_console.errors import ConsoleError
 from teo_console.protocol import Gloss, Motion
 from teo_console.review.report import as_csv, as_json, report
 from teo_console.review.series import CHOICES, Flag, NewItem, Rating, SeriesKind, offered
-from teo_console.review.store import ANSWER_LENGTH, COMMENT_LENGTH, NAME_LENGTH
+from teo_console.review.store import ANSWER_LENGTH, COMMENT_LENGTH, NAME_LENGTH, ReviewStore
 from teo_console.server.app import answering, body
 
 # Rows of a planned motion that are kept: every fourth of 100 a second, as films have them.
@@ -57,10 +57,12 @@ class _Rated(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
 
 def routes(workbench: Workbench) -> list[web.RouteDef]:
     """Series, their questions and reports; exports; entering them into the table."""
-    store = workbench.reviews
+
+    def store() -> ReviewStore:
+        return workbench.table.reviews
 
     async def all_series(_: web.Request) -> Any:
-        return store.series()
+        return store().series()
 
     async def new_series(request: web.Request) -> Any:
         wanted = await body(request, _NewSeries)
@@ -78,27 +80,27 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
         return vars(found)
 
     async def following(request: web.Request) -> Any:
-        reviewer = store.reviewer((await body(request, _Reviewer)).reviewer)
-        return {"question": store.next_question(request.match_info["id"], reviewer)}
+        reviewer = store().reviewer((await body(request, _Reviewer)).reviewer)
+        return {"question": store().next_question(request.match_info["id"], reviewer)}
 
     async def answer(request: web.Request) -> Any:
         said = await body(request, _Understood)
-        reviewer = store.reviewer(said.reviewer)
-        return {"meaning": store.answer(request.match_info["id"], reviewer, said.understood)}
+        reviewer = store().reviewer(said.reviewer)
+        return {"meaning": store().answer(request.match_info["id"], reviewer, said.understood)}
 
     async def rate(request: web.Request) -> Any:
         said = await body(request, _Rated)
-        reviewer = store.reviewer(said.reviewer)
-        store.rate(request.match_info["id"], reviewer, said.rating, said.flags, said.comment)
+        reviewer = store().reviewer(said.reviewer)
+        store().rate(request.match_info["id"], reviewer, said.rating, said.flags, said.comment)
         return {}
 
     async def figures(request: web.Request) -> Any:
         series = request.match_info["id"]
-        return report(store.meanings(series), store.answers(series))
+        return report(store().meanings(series), store().answers(series))
 
     async def export(request: web.Request) -> Any:
         is_json = request.match_info["format"] == "json"
-        content = (as_json if is_json else as_csv)(store.answers())
+        content = (as_json if is_json else as_csv)(store().answers())
         return web.Response(
             body=content,
             content_type="application/json" if is_json else "text/csv",
@@ -108,10 +110,11 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
 
     async def enter(_: web.Request) -> Any:
         with tempfile.TemporaryDirectory(prefix="teo-reviews-") as folder:
+            table = workbench.table
             path = Path(folder) / "reviews.json"
-            path.write_bytes(as_json(store.answers()))
-            job = await workbench.jobs.run(workbench.commands.enter_reviews(path))
-        workbench.signs.changed()
+            path.write_bytes(as_json(table.reviews.answers()))
+            job = await workbench.jobs.run(table.commands.enter_reviews(path))
+        table.signs.changed()
         return job.result
 
     return [
@@ -129,42 +132,43 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
 
 async def _enter_series(workbench: Workbench, wanted: _NewSeries, told: Preparation) -> str:
     """Plan the motion of every item, and enter the series; returns its name."""
+    table = workbench.table
     seed = secrets.randbits(32)
-    listed = await workbench.signs.signs()
-    words = sorted(sign.gloss for sign in listed.values() if sign.kind == "lexical")
-    glosses = wanted.glosses
-    if not glosses and not wanted.sentences:
-        glosses = tuple(random.Random(seed).sample(words, min(wanted.count, len(words))))
+    words = sorted(sign.gloss for sign in (await table.signs.signs()).values() if sign.kind == "lexical")
+    # All of them before the first is planned: who has mistyped the last is not to wait for the others.
+    signs = [await table.signs.get(gloss_key(gloss)) for gloss in wanted.glosses]
+    if not signs and not wanted.sentences:
+        drawn = random.Random(seed).sample(words, min(wanted.count, len(words)))
+        signs = [await table.signs.get(gloss) for gloss in drawn]
     items = []
-    for gloss in glosses:
-        sign = await workbench.signs.get(gloss_key(gloss))
-        near = await workbench.signs.nearest(sign.gloss) if wanted.choices else ()
+    for sign in signs:
+        near = await table.signs.nearest(sign.gloss) if wanted.choices else ()
         items.append(
             NewItem(
                 kind="sign",
                 meaning=sign.gloss,
                 language=sign.language,
                 motion_hash=sign.motion_hash,
-                motion=await _planned(workbench, sign.gloss),
+                motion=await _planned(workbench, table, sign.gloss),
                 choices=offered(sign.gloss, near, words, seed) if wanted.choices else (),
             )
         )
         told.done += 1
     for text in wanted.sentences:
-        job = await workbench.jobs.run(workbench.commands.translate(text))
+        job = await workbench.jobs.run(table.commands.translate(text))
         mark = text.strip()[-1:]
-        motion = await _planned(workbench, job.output.strip() + (mark if mark in "?!" else ""))
-        language = workbench.commands.language
+        motion = await _planned(workbench, table, job.output.strip() + (mark if mark in "?!" else ""))
+        language = table.commands.language
         items.append(NewItem(kind="sentence", meaning=text, language=language, motion_hash="", motion=motion))
         told.done += 1
-    return workbench.reviews.add_series(wanted.kind, wanted.title, items, seed)
+    return table.reviews.add_series(wanted.kind, wanted.title, items, seed)
 
 
-async def _planned(workbench: Workbench, glosses: str) -> Motion:
+async def _planned(workbench: Workbench, table: Table, glosses: str) -> Motion:
     """The motion of a sentence in the printed form, as the robot would make it."""
     with tempfile.TemporaryDirectory(prefix="teo-plan-") as folder:
         path = Path(folder) / "plan.csv"
-        await workbench.jobs.run(workbench.commands.plan(glosses, path))
+        await workbench.jobs.run(table.commands.plan(glosses, path))
         with path.open(encoding="utf-8", newline="") as file:
             header, *rows = csv.reader(file)
     kept = [tuple(map(float, row)) for row in (*rows[::_EVERY], rows[-1])]

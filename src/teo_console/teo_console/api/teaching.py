@@ -54,7 +54,7 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
 
     async def attempt(request: web.Request) -> Any:
         recording, wanted = _of(request), await body(request, _Try)
-        command = workbench.commands.capture(
+        command = workbench.table.commands.capture(
             recording.path,
             _cache(recording),
             gloss=gloss_key(wanted.gloss),
@@ -81,7 +81,7 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
                 "no_consent",
                 "expected that the person in the film agrees to the terms: without it nothing is kept",
             )
-        command = workbench.commands.capture(
+        command = workbench.table.commands.capture(
             recording.path,
             _cache(recording),
             gloss=gloss_key(wanted.gloss),
@@ -91,7 +91,7 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
             accept=wanted.despite_gates,
             replace=wanted.replace,
         )
-        return workbench.jobs.told(workbench.jobs.submit(command, then=workbench.signs.changed))
+        return workbench.jobs.told(workbench.jobs.submit(command, then=workbench.table.signs.changed))
 
     async def keep(request: web.Request) -> Any:
         name = gloss_key((await body(request, WithGloss)).gloss)
@@ -100,7 +100,9 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
 
     async def recognise(request: web.Request) -> Any:
         recording, wanted = _of(request), await body(request, WithGloss)
-        command = workbench.commands.recognise(recording.path, _cache(recording), gloss_key(wanted.gloss))
+        command = workbench.table.commands.recognise(
+            recording.path, _cache(recording), gloss_key(wanted.gloss)
+        )
         return workbench.jobs.told(workbench.jobs.submit(command))
 
     def _of(request: web.Request) -> Recording:

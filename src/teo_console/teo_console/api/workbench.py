@@ -23,6 +23,8 @@ from teo_console.jobs.recordings import Recordings
 from teo_console.protocol import Gloss
 from teo_console.review.series import CHOICES
 from teo_console.review.store import ReviewStore
+from teo_description.humanoid import DEFAULT_ROBOT
+from teo_sign_languages import DEFAULT_LANGUAGE
 
 # Signs that are taught elsewhere are seen after this long [s]; listing takes a second of a core.
 _FRESH = 30.0
@@ -118,6 +120,15 @@ class SignList:
         self._listed = -_FRESH
 
 
+@dataclass(frozen=True, kw_only=True)
+class Table:
+    """What belongs to one sign language on one robot: nothing of it meets what belongs to another."""
+
+    commands: Commands
+    signs: SignList
+    reviews: ReviewStore
+
+
 # Begins the name of a console's folder of recordings; the number of its process ends it.
 _RECORDINGS = "recordings-"
 
@@ -128,7 +139,8 @@ class Folders:
 
     Attributes:
         kept: Recordings that were kept on purpose.
-        reviews: The file of the reviews.
+        reviews: The file of the reviews of the default language and robot; those of others stand in
+            `reviews/<language>/<robot>/` beside it, as their tables of signs do.
         signwriting: What `draw_signwriting` has drawn; need not be there.
         cache: What can be made again: films of signs, recordings while they are looked at.
     """
@@ -149,6 +161,12 @@ class Folders:
             signwriting=data / "signwriting",
             cache=cache,
         )
+
+    def reviews_of(self, commands: Commands) -> Path:
+        """The file of the reviews of one language and robot."""
+        if (commands.language, commands.robot) == (DEFAULT_LANGUAGE, DEFAULT_ROBOT):
+            return self.reviews
+        return self.reviews.parent / "reviews" / commands.language / commands.robot / self.reviews.name
 
 
 @dataclass
@@ -177,17 +195,36 @@ class Workbench:
             OSError: A folder cannot be made.
         """
         self.folders = folders
-        self.commands = commands
         self.jobs = JobQueue()
         # What takes a second or two, and what nobody is told of, waits for no film that is looked through.
         self.lookups = JobQueue()
         _delete_what_was_left(folders.cache)
         # One console of a user each: several do not delete each other's recordings.
         self.recordings = Recordings(folders.cache / f"{_RECORDINGS}{os.getpid()}", self.lookups)
-        self.reviews = ReviewStore(folders.reviews)
-        self.signs = SignList(commands, self.lookups, self.jobs)
+        self._tables: dict[Commands, Table] = {}
+        self.use(commands)
         self.preparations: dict[str, Preparation] = {}
         self._tasks: set[asyncio.Task[None]] = set()
+
+    @property
+    def table(self) -> Table:
+        """What pages work on now. Whoever works on for a while keeps it: another may be used meanwhile."""
+        return self._table
+
+    def use(self, commands: Commands) -> None:
+        """Work on the signs of a language and robot from now on.
+
+        Raises:
+            ConsoleError: "bad_reviews".
+            OSError: A folder cannot be made.
+        """
+        if commands not in self._tables:
+            self._tables[commands] = Table(
+                commands=commands,
+                signs=SignList(commands, self.lookups, self.jobs),
+                reviews=ReviewStore(self.folders.reviews_of(commands)),
+            )
+        self._table = self._tables[commands]
 
     def now(self) -> float:
         """The time by which ages are told [s]."""
@@ -221,7 +258,8 @@ class Workbench:
         await self.jobs.close()
         await self.lookups.close()
         self.recordings.close()
-        self.reviews.close()
+        for table in self._tables.values():
+            table.reviews.close()
 
 
 def _delete_what_was_left(cache: Path) -> None:

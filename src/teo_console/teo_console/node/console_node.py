@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import socket
 import sys
 from collections.abc import Iterable, Sequence
@@ -34,7 +35,7 @@ from teo_console.server.hub import Hub
 from teo_console.server.thread import Bridge, ServerThread
 from teo_console.situation import SharedSituation
 from teo_description.humanoid import load_humanoid
-from teo_sign_languages import load_language
+from teo_sign_languages import Language, LanguageError, available_languages, load_language
 
 # How often pages are told what has changed [Hz]: often enough that nothing seems late.
 _SITUATION_RATE = 10.0
@@ -64,17 +65,13 @@ class ConsoleNode(Node):
         robot = load_humanoid(self._value("robot")).name
         language = load_language(self._value("language"))
         self._commands = Commands(robot=robot, language=language.code)
-        self._names = Names(
-            robot=robot.upper(),
-            signs=language.names.short,
-            spoken=language.spoken.code,
-            example=language.sentences[0],
-        )
+        self._names = _names(robot, language)
         self._situation = SharedSituation()
         self._client = RobotClient(self, self._situation)
         self._observer = Observer(self, self._situation, now=self._now, changed=self._client.look_at_queue)
         self._bridge = Bridge()
         self._pages = 0
+        self._refused: tuple[str, str] | None = None
         self._joints: tuple[str, ...] = ()
         self._robot_known = False
         self._positions: Sequence[float] = ()
@@ -108,7 +105,7 @@ class ConsoleNode(Node):
         return float(self.get_clock().now().nanoseconds) * 1e-9
 
     def _make_app(self) -> web.Application:
-        workbench = Workbench(Folders.of_user(), self._commands)
+        workbench = self._workbench = Workbench(Folders.of_user(), self._commands)
 
         async def clear_up(_: web.Application) -> None:
             await workbench.close()
@@ -152,7 +149,25 @@ class ConsoleNode(Node):
         frame = encode_pose(messages.seconds(state.header.stamp), state.position)
         self._server.call(self._hub.pose, frame)
 
+    def _follow(self) -> None:
+        """Speak of the robot and the language that run: others may have changed the language."""
+        robot = self._observer.robot or self._commands.robot
+        language = self._observer.language or self._commands.language
+        if (robot, language) in (self._refused, (self._commands.robot, self._commands.language)):
+            return
+        try:
+            load_humanoid(robot)
+            names = _names(robot, load_language(language))
+        except CodedError as error:
+            self._refused = robot, language  # to be said once
+            self.get_logger().warning(f"the page goes on as before: [{error.code}] {error}")
+            return
+        self._commands, self._names = Commands(robot=robot, language=language), names
+        self._server.call(self._workbench.use, self._commands)
+        self._send_welcome()
+
     def _send_situation(self) -> None:
+        self._follow()
         now = self._now()
         situation = self._situation.snapshot(now, pages=self._pages)
         unchanged = self._last is not None and replace(situation, stamp=self._last.stamp) == self._last
@@ -172,6 +187,24 @@ class ConsoleNode(Node):
         )
         segno.make(link).terminal(out=sys.stdout, compact=True)
         sys.stdout.flush()
+
+
+def _names(robot: str, language: Language) -> Names:
+    """What pages call them, and the languages to choose from."""
+    languages = {language.code: language.names.short}
+    for code in available_languages():
+        with contextlib.suppress(LanguageError):  # of a broken one the page need not know
+            other = load_language(code)
+            if robot in other.robots:
+                languages[code] = other.names.short
+    return Names(
+        robot=robot.upper(),
+        signs=language.names.short,
+        spoken=language.spoken.code,
+        example=language.sentences[0],
+        language=language.code,
+        languages=languages,
+    )
 
 
 def _own_addresses() -> list[str]:

@@ -8,6 +8,7 @@ import re
 from typing import Any, get_args
 
 from msgspec.structs import replace
+from rcl_interfaces.srv import SetParameters
 from std_srvs.srv import Trigger
 from teo_sign_msgs.msg import (
     DriverState,
@@ -50,6 +51,8 @@ _MODES: dict[int, RobotMode] = _words(DriverState, "MODE", RobotMode)
 
 # A refusal of driver or executor: its stable reason, and a sentence for people.
 _REFUSAL = re.compile(r"([a-z][a-z0-9_]*): (.+)", re.DOTALL)
+# That of a parameter.
+_REFUSED_VALUE = re.compile(r"\[([a-z][a-z0-9_]*)\] (.+)", re.DOTALL)
 
 
 def seconds(stamp: object) -> float:
@@ -63,6 +66,16 @@ def to_answer(number: int, response: Trigger.Response) -> Answer:
         return Answer(id=number, success=True, message=response.message)
     refusal = _REFUSAL.fullmatch(response.message)
     code, sentence = refusal.groups() if refusal else ("not_done", response.message)
+    return Answer(id=number, success=False, code=code, message=sentence)
+
+
+def to_answer_of_set(number: int, response: SetParameters.Response) -> Answer:
+    """What became of a parameter that was to be set."""
+    (result,) = response.results
+    if result.successful:
+        return Answer(id=number, success=True)
+    refusal = _REFUSED_VALUE.fullmatch(result.reason)
+    code, sentence = refusal.groups() if refusal else ("not_done", result.reason)
     return Answer(id=number, success=False, code=code, message=sentence)
 
 

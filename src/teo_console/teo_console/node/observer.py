@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from xml.etree import ElementTree
 
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.node import Node
@@ -18,7 +19,7 @@ from teo_common.diagnostics import Level
 from teo_console.errors import ConsoleError
 from teo_console.node import messages
 from teo_console.protocol import NodeRole
-from teo_console.situation import ROLES, SharedSituation
+from teo_console.situation import ROLES, SharedSituation, diagnosed_node
 
 # The topic by whose publisher a node is known, whatever it is called.
 _TOPICS: dict[NodeRole, str] = {
@@ -50,6 +51,10 @@ class Observer:
         self._changed = changed
         self._joint_state = b""
         self.urdf = ""
+        self.robot = ""
+        """Name of the robot that the driver moves; empty while none is known."""
+        self.language = ""
+        """Code of the sign language that is translated into; likewise."""
         latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         # Best effort takes reliable publishers as well; only the newest state counts.
         newest = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
@@ -105,9 +110,15 @@ class Observer:
         for status in message.status:
             level = Level(min(int.from_bytes(status.level), Level.STALE))
             self._situation.diagnosis(status.name, level, status.message, self._now())
+            if diagnosed_node(status.name) == "translator":
+                self.language = {each.key: each.value for each in status.values}.get("language", "")
 
     def _on_description(self, message: String) -> None:
         self.urdf = message.data
+        try:
+            self.robot = ElementTree.fromstring(message.data).get("name", "")
+        except ElementTree.ParseError:
+            self.robot = ""  # the page says that it has no robot
 
     def _on_speech(self, message: String) -> None:
         try:

@@ -12,7 +12,7 @@ PARAMETERS = (
     ParameterRow(
         name="language",
         default=DEFAULT_LANGUAGE,
-        description="Sign language, by its ISO 639-3 code: the page names it, and works on its signs.",
+        description="Sign language, by its ISO 639-3 code, until a translator tells the one that runs.",
         read_only=True,
     ),
     ParameterRow(

@@ -9,7 +9,9 @@ from collections.abc import Callable
 from typing import Any
 
 from control_msgs.msg import SpeedScalingFactor
+from rcl_interfaces.srv import SetParameters
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.task import Future
 from std_msgs.msg import String
@@ -28,6 +30,7 @@ from teo_console.protocol import (
     FetchSign,
     FromPage,
     Order,
+    SetLanguage,
     SetSpeed,
     SignGlosses,
     SignText,
@@ -55,6 +58,10 @@ class RobotClient:
         self._orders = {order: node.create_client(Trigger, order.value) for order in Order}
         self._get_sign = node.create_client(GetSign, "get_sign")
         self._list_queue = node.create_client(ListQueue, "list_queue")
+        # In this order: what the executor has no signs of is not to be translated.
+        self._parameters = [
+            node.create_client(SetParameters, f"{name}/set_parameters") for name in ("executor", "translator")
+        ]
         self._rearming = Rearming(self._order)
 
     def serve(self, asked: FromPage, reply: Reply) -> None:
@@ -101,11 +108,31 @@ class RobotClient:
                 request = GetSign.Request(gloss=asked.gloss)
                 self._call(self._get_sign, request, reply, lambda done: _of_sign(asked, done))
 
+            case SetLanguage():
+                self._set_language(asked, self._parameters, reply)
+
     def _order(self, asked: Command, reply: Reply) -> None:
         """Call the service that carries out a command, and reply once."""
         try:
             client = self._orders[asked.order]
             self._call(client, Trigger.Request(), reply, lambda done: messages.to_answer(asked.id, done))
+        except ConsoleError as error:
+            reply(_refused(asked, error))
+
+    def _set_language(self, asked: SetLanguage, clients: list[Any], reply: Reply) -> None:
+        """Set the language of one node after the other, as long as none refuses; reply once."""
+        client, *others = clients
+
+        def go_on(answer: Answer) -> None:
+            if answer.success and others:
+                self._set_language(asked, others, reply)
+            else:
+                reply(answer)
+
+        value = Parameter("language", value=asked.language).to_parameter_msg()
+        request = SetParameters.Request(parameters=[value])
+        try:
+            self._call(client, request, go_on, lambda done: messages.to_answer_of_set(asked.id, done))
         except ConsoleError as error:
             reply(_refused(asked, error))
 

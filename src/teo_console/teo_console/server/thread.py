@@ -13,7 +13,7 @@ from queue import Empty, SimpleQueue
 from aiohttp import web
 
 from teo_console.errors import ConsoleError
-from teo_console.protocol import Answer, FromPage
+from teo_console.protocol import Answer, FromPage, SetLanguage
 
 # Longest that starting and ending may take [s]: both take a fraction of a second.
 _START_TIMEOUT = 10.0
@@ -86,6 +86,8 @@ class ServerThread:
 
 # A service that has not answered by then is not waited for any longer [s]: they answer within milliseconds.
 _ANSWER_TIMEOUT = 3.0
+# A language's model is loaded within two seconds, on a busy machine in five times as long [s].
+_LANGUAGE_TIMEOUT = 20.0
 
 
 class Bridge:
@@ -101,12 +103,12 @@ class Bridge:
         answered: Future[Answer] = Future()
         self._asked.put((request, answered))
         self.wake()
+        longest = _LANGUAGE_TIMEOUT if isinstance(request, SetLanguage) else _ANSWER_TIMEOUT
         try:
-            return await asyncio.wait_for(asyncio.wrap_future(answered), _ANSWER_TIMEOUT)
+            return await asyncio.wait_for(asyncio.wrap_future(answered), longest)
         except TimeoutError:
             sentence = (
-                f"expected an answer within {_ANSWER_TIMEOUT:g} s, none came: "
-                "the node that serves it may be dead"
+                f"expected an answer within {longest:g} s, none came: the node that serves it may be dead"
             )
             return Answer(id=request.id, success=False, code="no_answer", message=sentence)
 

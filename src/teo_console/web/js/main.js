@@ -87,6 +87,7 @@ async function show() {
   const turn = ++mounting;
   const { mount } = await loaded(`./tabs/${name}.js`);
   if (turn !== mounting) return; // another tab was chosen meanwhile
+  const held = element("content").contains(document.activeElement) && document.activeElement.id;
   leave();
   leave = () => {};
   const content = element("content");
@@ -101,8 +102,9 @@ async function show() {
   });
   element("tabs").replaceChildren(...items);
   const left = (await mount(page, context)) ?? (() => {});
-  if (turn === mounting) leave = left;
-  else left();
+  if (turn !== mounting) return left();
+  leave = left;
+  if (held && document.activeElement === document.body) element(held)?.focus(); // the same tab, said anew
 }
 
 function showStatus() {
@@ -160,9 +162,12 @@ socket.addEventListener("refused", ({ detail }) => {
   notify(refusalText(detail.code));
 });
 
-/** Says all anew if the names are others: the first welcome came, or another console answers. */
-function sayNames() {
-  if (JSON.stringify(socket.welcome.names) !== named) setLanguage(settings.get("language"));
+/** Says all anew if the names are others: the first welcome came, another console answers, or the language changed. */
+async function sayNames() {
+  if (JSON.stringify(socket.welcome.names) === named) return;
+  const anew = named && named !== "null";
+  await setLanguage(settings.get("language"));
+  if (anew) notify(t("names.now"));
 }
 socket.addEventListener("welcome", sayNames);
 setTimeout(sayNames, NAMES_TIME);

@@ -9,7 +9,7 @@ const STEP = 10;
 // The node repeats the situation every second: a speed that it does not tell by then was not taken [ms].
 const TAKEN = 1500;
 
-export function robotControls({ socket, settings, attempt, t }, listening) {
+export function robotControls({ socket, settings, attempt, notify, t }, listening) {
   const pause = h("button", { type: "button", id: "pause" });
   const speed = h("input", { type: "range", id: "speed", min: String(SLOWEST), max: "100", step: String(STEP) });
   const told = h("output", { for: "speed" });
@@ -42,6 +42,15 @@ export function robotControls({ socket, settings, attempt, t }, listening) {
     remind(robot, pages);
   }
 
+  // What runs has changed once the names of the next welcome tell so: then all of the page is said anew.
+  const { languages = {}, language = "" } = socket.welcome.names ?? {};
+  const signs = h("select", { id: "sign-language" }, ...Object.entries(languages).map(([code, name]) => h("option", { value: code }, name)));
+  signs.value = language;
+  signs.addEventListener("change", async () => {
+    notify(t("robot.changing"));
+    if (!(await attempt(() => socket.ask("set_language", { language: signs.value })))) signs.value = language;
+  });
+
   // A console that has just started signs at full speed: whoever is alone with it has the speed chosen last time.
   let reminded = false;
   function remind({ speed_wanted, mode }, pages) {
@@ -57,6 +66,8 @@ export function robotControls({ socket, settings, attempt, t }, listening) {
     h("h2", { id: "robot-title" }, t("robot.title")),
     h("div", { class: "row" }, pause,
       h("label", { class: "speed", for: "speed" }, h("span", {}, t("robot.speed"), " ", told), speed)),
+    signs.length > 1 && h("label", { class: "row small", for: "sign-language" }, t("robot.language"), signs),
+    h("p", { class: "faint small" }, t("robot.another")),
   );
   if (socket.situation) show(socket.situation);
   return element;
