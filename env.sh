@@ -26,6 +26,8 @@ _teo_prepend() { # VARIABLE DIRECTORY: puts the directory first, once
     unset _teo_old
 }
 
+# What is installed is compiled when it is first loaded (setup.sh); unwritten, each process would do that again: 2 s.
+unset PYTHONDONTWRITEBYTECODE
 export VIRTUAL_ENV="$_teo_root/.venv"
 _teo_prepend PATH "$_teo_root/.venv/bin"
 if [ -f "$_teo_root/.venv/lib/librcl.so" ]; then # ROS 2 from the PyPI wheels, not from a sourced installation

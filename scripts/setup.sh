@@ -10,6 +10,9 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
+# pip and colcon are loaded many times: compiled once, whatever the shell says (env.sh does so too).
+unset PYTHONDONTWRITEBYTECODE
+
 level="${1:-all}"
 case "$level" in
     run) stamps=(.ready-run .ready-view .ready) ;;
