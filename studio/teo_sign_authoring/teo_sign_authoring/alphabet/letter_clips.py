@@ -6,13 +6,16 @@ A clip for each letter, of one signer for each language: MediaPipe Holistic land
 second. They look flat, but are not: width and height were scaled to pixels and the depth was left in
 MediaPipe's unit, a fraction of the picture's width. `DEPTH_SCALE` puts it back. Where the tracker of the
 hand lost it, which the tracker of the body tells, the hand is led straight from where it was last seen to
-where it is seen again. `find_stroke` says where the sign begins and ends in a clip, what moves and what
-is held.
+where it is seen again; a clip begins and ends where it is seen. A letter of the left hand is read as its
+mirror image, one of both hands is refused. `find_stroke` says where the sign begins and ends in a clip, what
+moves and what is held.
 """
 
 from __future__ import annotations
 
 import csv
+import unicodedata
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib import metadata, resources
 from pathlib import Path
@@ -33,12 +36,16 @@ LICENCE = "MIT"
 # flat between 550 and 700).
 DEPTH_SCALE = 620.0
 
-_HAND = "RIGHT_HAND_LANDMARKS"
-_BODY, _BODY_WRIST = "POSE_LANDMARKS", 16
+# Landmarks of the hands, the one that most people spell with first, and the wrist of each among the body's.
+_HANDS = {"RIGHT_HAND_LANDMARKS": 16, "LEFT_HAND_LANDMARKS": 15}
+_BODY, _SHOULDERS = "POSE_LANDMARKS", [11, 12]
 # [pixel] The hand's wrist is within 27 of the body's in every Spanish letter's stroke but Q's, where 15
 # frames in a row have it 34 to 55 away and the hand shrunk to a third: the hand was lost, the arm was not.
 # Wrist to middle knuckle is 59.
 _LOST = 30.0
+# [shoulder widths] The other hand takes part if it is no farther below the shoulders for half of a clip. In
+# the package's clips hands at rest are 1.19 and more below; where both spell, the other is 1.09 at most.
+_TAKES_PART = 1.14
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,8 +55,9 @@ class LetterClip:
     Attributes:
         letter: Of the language's alphabet: "A", "CH".
         rate: Frames a second [Hz].
-        hand: The 21 landmarks of the right hand [pixel of the normalised clip]: forward (to the viewer, from
-            the wrist), to the signer's left, up. Shape (n, 21, 3), read-only.
+        hand: The 21 landmarks of the right hand, or the left one's mirror image [pixel of the normalised
+            clip]: forward (to the viewer, from the wrist), to the signer's left, up. Shape (n, 21, 3),
+            read-only.
         lost: Frames in which the hand was not seen, and is filled in. Shape (n,), read-only.
         file: Name of the recording.
     """
@@ -61,15 +69,23 @@ class LetterClip:
     file: str
 
 
-def load_letter_clips(language: Language) -> dict[str, LetterClip]:
+def load_letter_clips(
+    language: Language, *, refused: Callable[[str, LutError], None] | None = None
+) -> dict[str, LetterClip]:
     """Read the recordings of a language's letters.
+
+    Args:
+        language: The language.
+        refused: Called with each letter that has no recording that can be used, and the reason; without it
+            the first such reason is raised.
 
     Returns:
         Clips by letter, in the order of the alphabet.
 
     Raises:
-        LutError: The language names no recordings, the package that holds them is missing, or has none of a
-            letter ("no_clips"), those of another language ("other_language") or a damaged one ("bad_clip").
+        LutError: The language names no recordings or the package that holds them is missing ("no_clips"), or
+            they are another language's ("other_language"). Of a letter: it has none ("no_clips"), a damaged
+            one ("bad_clip") or one of both hands ("two_hands").
     """
     if language.alphabet.clips is None:
         raise LutError(
@@ -80,26 +96,32 @@ def load_letter_clips(language: Language) -> dict[str, LetterClip]:
         root = Path(str(resources.files("spoken_to_signed"))) / "assets" / "fingerspelling_lexicon"
         with (root / "index.csv").open(encoding="utf-8", newline="") as file:
             rows = [row for row in csv.DictReader(file) if row["signed_language"] == collection]
-        paths = {row["words"].upper(): row["path"] for row in rows}
+        paths = {unicodedata.normalize("NFC", row["words"]).upper(): row["path"] for row in rows}
     except (ModuleNotFoundError, OSError, KeyError) as error:
         raise LutError(
             "no_clips", f"expected the package {PACKAGE} with its clips (pip install {PACKAGE}), got: {error}"
         ) from error
-    missing = [letter for letter in language.alphabet.letters if letter not in paths]
-    if missing:
-        raise LutError(
-            "no_clips",
-            f"expected a recording of each letter of {language.code!r} in the collection {collection!r}, "
-            f"got none of {', '.join(missing)}: it has {', '.join(paths) or 'none'}",
-        )
     # The rows of French Sign Language name the American files.
-    others = {Path(paths[letter]).parts[0] for letter in language.alphabet.letters} - {collection}
+    others = {Path(path).parts[0] for path in paths.values()} - {collection}
     if others:
         raise LutError(
             "other_language",
             f"expected recordings of {collection!r}, got files of {', '.join(sorted(others))} under its name",
         )
-    return {letter: _read(root / paths[letter], letter) for letter in language.alphabet.letters}
+    clips = {}
+    for letter in language.alphabet.letters:
+        try:
+            if letter not in paths:
+                there = ", ".join(paths) or "none"
+                raise LutError(
+                    "no_clips", f"{letter}: expected a recording in {collection!r}, which has {there}"
+                )
+            clips[letter] = _read(root / paths[letter], letter)
+        except LutError as error:
+            if refused is None:
+                raise
+            refused(letter, error)
+    return clips
 
 
 def clips_version() -> str:
@@ -116,26 +138,62 @@ def _read(path: Path, letter: str) -> LetterClip:
         names = [name for name, _ in components]
         starts = dict(zip(names, np.cumsum([0, *(count for _, count in components)]).tolist(), strict=False))
         points = np.asarray(pose.body.data.filled(np.nan), dtype=np.float64)[:, 0]
-        landmarks = points[:, starts[_HAND] : starts[_HAND] + 21]
-        body_wrist = points[:, starts[_BODY] + _BODY_WRIST]
+        body = points[:, starts[_BODY] : starts[_BODY] + 33]
+        hands = [points[:, starts[name] : starts[name] + 21] for name in _HANDS]
         rate = float(pose.body.fps)
     except Exception as error:  # whatever a damaged file makes of pose-format
-        raise LutError("bad_clip", f"{path.name}: expected a pose file with {_HAND}, got: {error}") from error
-    if landmarks.shape[1:] != (21, 3) or not np.isfinite(landmarks).all():
-        raise LutError("bad_clip", f"{path.name}: expected 21 landmarks in each frame, got some missing")
+        raise LutError(
+            "bad_clip", f"{letter}: {path.name}: expected a pose file with {', '.join(_HANDS)}, got: {error}"
+        ) from error
+    landmarks, body_wrist = _signing_hand(hands, body, f"{letter}: {path.name}")
     away = np.linalg.norm(landmarks[:, WRIST, :2] - body_wrist[:, :2], axis=1)
-    lost = away > _LOST
+    there = np.asarray(np.isfinite(landmarks).all(axis=(1, 2)))
+    lost = np.asarray(~(there & (away <= _LOST)))
     if lost.all():
-        raise LutError("bad_clip", f"{path.name}: expected a hand at the arm's wrist, got none in any frame")
+        raise LutError(
+            "bad_clip", f"{letter}: {path.name}: expected a hand at the arm's wrist, got none in any frame"
+        )
     # What is before the first or after the last sight of the hand cannot be led from anywhere: left as it is.
     seen = np.flatnonzero(~lost)
-    lost[: seen[0]] = lost[seen[-1] :] = False
+    lost[: seen[0]] = ~there[: seen[0]]
+    lost[seen[-1] :] = ~there[seen[-1] :]
     depth = landmarks[..., 2] - landmarks[:, WRIST, None, 2]
     hand = np.stack([-DEPTH_SCALE * depth, landmarks[..., 0], -landmarks[..., 1]], axis=-1)
     hand = _filled(hand, lost)
     hand.setflags(write=False)
     lost.setflags(write=False)
     return LetterClip(letter=letter, rate=rate, hand=hand, lost=lost, file=path.name)
+
+
+def _signing_hand(hands: Sequence[Array], body: Array, where: str) -> tuple[Array, Array]:
+    """The hand that spells, as if it were the right one, from its first to its last sight.
+
+    Args:
+        hands: Landmarks of the right hand and of the left one, NaN where it is not seen. Shapes (n, 21, 3).
+        body: Those of the body. Shape (n, 33, 3).
+        where: What errors begin with.
+
+    Returns:
+        Landmarks of the hand, shape (k, 21, 3), and of the wrist by the tracker of the body, (k, 3).
+    """
+    sights = [np.flatnonzero(np.isfinite(hand).all(axis=(1, 2))) for hand in hands]
+    own = 0 if len(sights[0]) else 1
+    if not len(sights[own]) or hands[own].shape[1:] != (21, 3):
+        raise LutError("bad_clip", f"{where}: expected 21 landmarks of a hand, got none in any frame")
+    wrists, shoulders = body[:, list(_HANDS.values())].swapaxes(0, 1), body[:, _SHOULDERS]
+    width = np.nanmedian(np.linalg.norm(shoulders[:, 0] - shoulders[:, 1], axis=1))
+    below = wrists[1 - own, :, 1] - shoulders[:, :, 1].mean(axis=1)
+    below = below[np.isfinite(below)]  # of a hand out of the picture nothing is known
+    if len(below) and np.median(below) <= _TAKES_PART * width:
+        raise LutError(
+            "two_hands", f"{where}: expected a letter of one hand, got both hands up: describe it in a score"
+        )
+    seen = slice(sights[own][0], sights[own][-1] + 1)
+    hand, wrist = hands[own][seen], wrists[own][seen]
+    if own:  # about the middle between the shoulders
+        middle = float(np.nanmedian(shoulders[..., 0]))
+        hand, wrist = ([2.0 * middle, 0.0, 0.0] + points * [-1.0, 1.0, 1.0] for points in (hand, wrist))
+    return hand, wrist
 
 
 def _filled(hand: NDArray[np.float64], lost: NDArray[np.bool_]) -> NDArray[np.float64]:

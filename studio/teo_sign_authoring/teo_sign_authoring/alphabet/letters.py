@@ -40,6 +40,7 @@ from teo_sign_capture.retarget.hand_motion import axis_shares
 from teo_sign_capture.retarget.knots import clearance_mm, limit_margin_deg, reduce_to_knots
 from teo_sign_capture.signing_space import find_place, finger_rows
 from teo_sign_languages import Language, LetterClips
+from teo_signs.errors import LutError
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Provenance
 
@@ -61,6 +62,7 @@ class RecordedAlphabet:
     Attributes:
         language: Whose letters they are.
         clips: The recordings, by letter.
+        refused: Why other letters have none that can be used.
         signer: Size of the signer's hand.
         centre: Where the signer's palm is on average for the letters that the language names: left, up
             [pixel]. Shape (2,).
@@ -70,6 +72,7 @@ class RecordedAlphabet:
 
     language: Language
     clips: Mapping[str, LetterClip]
+    refused: Mapping[str, LutError]
     signer: SignerHand
     centre: Array
     place: Array
@@ -80,17 +83,21 @@ def read_alphabet(robot: Robot, language: Language) -> RecordedAlphabet:
     """Measure the signer of a language's letters and find the place where TEO spells.
 
     Raises:
-        LutError: As `load_letter_clips`.
+        LutError: As `load_letter_clips` of all letters together; the reason of one if none can be used.
     """
-    clips = load_letter_clips(language)
+    refused: dict[str, LutError] = {}
+    clips = load_letter_clips(language, refused=refused.__setitem__)
+    if not clips:
+        raise next(iter(refused.values()))
     centres = []
-    for letter in _recordings(language).place or clips:
+    for letter in [letter for letter in _recordings(language).place if letter in clips] or clips:
         stroke = find_stroke(clips[letter])
         centres.append(np.median(palm_centres(clips[letter].hand)[stroke.first : stroke.last + 1], axis=0))
     signer = measure_signer(clip.hand for clip in clips.values())
     return RecordedAlphabet(
         language=language,
         clips=clips,
+        refused=refused,
         signer=signer,
         centre=np.mean(centres, axis=0),
         place=find_place(robot.humanoid, "spelling").point,
@@ -111,8 +118,11 @@ def capture_letter(robot: Robot, alphabet: RecordedAlphabet, letter: str) -> Sig
         robot: The robot.
         alphabet: The clips and what they share.
         letter: Which of them.
+
+    Raises:
+        LutError: The reason in `RecordedAlphabet.refused`, of this letter or one that it is made after.
     """
-    humanoid, clip = robot.humanoid, alphabet.clips[letter]
+    humanoid, clip = robot.humanoid, _clip(alphabet, letter)
     stroke = find_stroke(clip)
     poses = _held_poses(clip, stroke, alphabet.signer)
     first = _letter_in(_recordings(alphabet.language).begins_as, alphabet, letter)
@@ -151,9 +161,15 @@ def capture_letter(robot: Robot, alphabet: RecordedAlphabet, letter: str) -> Sig
     )
 
 
+def _clip(alphabet: RecordedAlphabet, letter: str) -> LetterClip:
+    if letter in alphabet.refused:
+        raise alphabet.refused[letter]
+    return alphabet.clips[letter]
+
+
 def letter_bends(alphabet: RecordedAlphabet, letter: str) -> Array:
     """How much the person's fingers are bent in all, in each hold of a letter [rad]. Shape (holds, 4)."""
-    clip = alphabet.clips[letter]
+    clip = _clip(alphabet, letter)
     poses = _held_poses(clip, find_stroke(clip), alphabet.signer)
     return np.array([pose.bends.sum(axis=1) for pose in poses])
 
@@ -172,7 +188,7 @@ def _letter_in(others: Mapping[str, str], alphabet: RecordedAlphabet, letter: st
     other = others.get(letter)
     if other is None:
         return None
-    clip = alphabet.clips[other]
+    clip = _clip(alphabet, other)
     return _held_poses(clip, find_stroke(clip), alphabet.signer)[0]
 
 

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from functools import partial
 from pathlib import Path
 from typing import Annotated, NoReturn
@@ -13,8 +13,12 @@ import typer
 from rich.console import Console
 
 from teo_common.errors import CodedError
+from teo_description.errors import DescriptionError
+from teo_description.hand_geometry import hand_table
+from teo_description.humanoid import DEFAULT_ROBOT
 from teo_description.robot import Robot
-from teo_sign_capture.cli.options import LanguageCode
+from teo_sign_capture.cli.options import LanguageCode, RobotName
+from teo_sign_capture.signing_space import finger_rows
 from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
 from teo_signs.errors import LutError, PlanError
 from teo_signs.look_up_table import Lut
@@ -44,18 +48,20 @@ def capture_letters(
         alphabet = read_alphabet(robot, load_language(language))
     except (LanguageError, LutError) as error:
         _fail(error)
-    unknown = [letter for letter in only or [] if letter not in alphabet.clips]
+    known = alphabet.language.alphabet.letters
+    unknown = [letter for letter in only or [] if letter not in known]
     if unknown:
-        message = f"expected letters among {', '.join(alphabet.clips)}; got {', '.join(unknown)}"
+        message = f"expected letters among {', '.join(known)}; got {', '.join(unknown)}"
         _fail(LutError("unknown_letter", message))
-    _save(
-        (capture_letter(robot, alphabet, letter) for letter in only or alphabet.clips), out, replace=replace
+    _save_all(
+        only or known, lambda letter: capture_letter(robot, alphabet, letter), out, "letters", replace=replace
     )
 
 
 def ease_letters(
     lut: Annotated[Path, typer.Option(help="Directory of the table whose letters get easy postures.")],
     language: LanguageCode = DEFAULT_LANGUAGE,
+    robot: RobotName = DEFAULT_ROBOT,
 ) -> None:
     """Give each letter of a table the posture with which spelling needs least travel, as its alternative."""
     from teo_sign_authoring.alphabet.letter_likeness import recorded_features
@@ -64,20 +70,24 @@ def ease_letters(
     from teo_sign_authoring.easing.easy_letters import with_easy_posture
     from teo_sign_authoring.easing.letter_tolerance import LetterTolerance
 
-    robot = Robot.load()
     try:
-        table = Lut.open(lut, language=language)
-        alphabet = read_alphabet(robot, table.language)
+        speller = Robot.load(robot)
+        table = Lut.open(lut, language=language, robot=robot)
+        alphabet = read_alphabet(speller, table.language)
+        rows = finger_rows(hand_table(speller).hand)
         recordings = {
-            letter: recorded_features(clip, alphabet.scale) for letter, clip in alphabet.clips.items()
+            letter: recorded_features(clip, alphabet.scale, rows) for letter, clip in alphabet.clips.items()
         }
         letters = {letter: table[letter] for letter in alphabet.clips if letter in table}
-        tolerances = {letter: LetterTolerance(robot, sign, recordings) for letter, sign in letters.items()}
-        offsets = easier_offsets(robot, table.language.alphabet, tolerances)
-    except LutError as error:
+        tolerances = {letter: LetterTolerance(speller, sign, recordings) for letter, sign in letters.items()}
+        offsets = easier_offsets(speller, table.language.alphabet, tolerances)
+    except (LutError, DescriptionError) as error:
         _fail(error)
     eased = (with_easy_posture(sign, offsets[letter]) for letter, sign in letters.items())
     _save(eased, lut, replace=True)
+    missing = [letter for letter in table.language.alphabet.letters if letter not in letters]
+    if missing:
+        _errors.print(f"not eased, for the table has none: {', '.join(missing)}", soft_wrap=True)
 
 
 def capture_numbers(out: _Out, language: LanguageCode = DEFAULT_LANGUAGE, replace: _Replace = False) -> None:
@@ -127,22 +137,13 @@ def capture_scores(
             raise LutError("unknown_sign", message)
     except (LanguageError, LutError) as error:
         _fail(error)
-    failed: list[str] = []
 
-    def signs() -> Iterator[Sign]:
-        for gloss in only or found:
-            try:
-                sign = score_sign(robot, found[gloss], language=signed.code)
-                played_alone(robot, sign)
-                yield sign
-            except (LutError, PlanError) as error:
-                failed.append(gloss)
-                _errors.print(f"{error.code}: {error}", soft_wrap=True)
+    def made(gloss: str) -> Sign:
+        sign = score_sign(robot, found[gloss], language=signed.code)
+        played_alone(robot, sign)
+        return sign
 
-    _save(signs(), out, replace=replace)
-    if failed:
-        _errors.print(f"{len(failed)} of {len(only or found)} scores left out: {', '.join(failed)}")
-        raise typer.Exit(1)
+    _save_all(only or found, made, out, "scores", replace=replace)
 
 
 def _run(command: Callable[..., None]) -> None:
@@ -157,6 +158,27 @@ ease_letters_main = partial(_run, ease_letters)
 numbers_main = partial(_run, capture_numbers)
 demonstration_main = partial(_run, capture_demonstration)
 scores_main = partial(_run, capture_scores)
+
+
+def _save_all(
+    glosses: Collection[str], made: Callable[[str], Sign], out: Path, what: str, *, replace: bool
+) -> None:
+    """Save what can be made, say why the others cannot, and end with status 1 if there are such."""
+    failed: list[str] = []
+
+    def signs() -> Iterator[Sign]:
+        for gloss in glosses:
+            try:
+                yield made(gloss)
+            except (LutError, PlanError) as error:
+                failed.append(gloss)
+                _errors.print(f"{error.code}: {error}", soft_wrap=True)
+
+    _save(signs(), out, replace=replace)
+    if failed:
+        left = f"{len(failed)} of {len(glosses)} {what} left out: {', '.join(failed)}"
+        _errors.print(left, soft_wrap=True)
+        raise typer.Exit(1)
 
 
 def _save(signs: Iterable[Sign], out: Path, *, replace: bool) -> None:

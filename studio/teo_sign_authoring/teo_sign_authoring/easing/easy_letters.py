@@ -40,19 +40,16 @@ def ease_letters(
     Args:
         robot: The robot.
         alphabet: The language's, with how often each letter is spelled.
-        tolerances: Of each of its letters.
+        tolerances: Of its letters, as far as there are such.
 
     Returns:
         By letter, what is added to every knot [rad]. Shape (m,) each.
 
     Raises:
-        LutError: A letter is missing ("unknown_sign").
+        LutError: There is no letter ("unknown_sign").
     """
-    missing = [letter for letter in alphabet.letters if letter not in tolerances]
-    if missing:
-        raise LutError(
-            "unknown_sign", f"expected all letters of the alphabet, got none for {', '.join(missing)}"
-        )
+    if not tolerances:
+        raise LutError("unknown_sign", f"expected letters among {', '.join(alphabet.letters)}, got none")
     _part_look_alikes(robot, tolerances)
     offsets = {letter: np.zeros(len(one.sign.joints)) for letter, one in tolerances.items()}
     for step in _STEPS:

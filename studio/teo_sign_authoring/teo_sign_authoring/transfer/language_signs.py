@@ -76,9 +76,9 @@ class LanguageSigns:
 
         Raises:
             LutError: "unknown_sign" if nothing is known of it, "missing_finger" if the hand lacks a finger
-                that is seen in it, or "self_collision".
+                that is seen in it, "self_collision", or that of a letter as `load_letter_clips` has it.
         """
-        if gloss in self._alphabet.clips:
+        if gloss in self.language.alphabet.letters and gloss not in self._scores:
             self._check_fingers(gloss, letter_bends(self._alphabet, gloss))
             return capture_letter(self.robot, self._alphabet, gloss)
         if gloss in self._scores:

@@ -7,6 +7,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable
 from functools import cache
+from importlib import resources
 from pathlib import Path
 
 import msgspec
@@ -26,7 +27,7 @@ from teo_sign_authoring.alphabet.spelling_arm import fit_arm, shift_off_face, sp
 from teo_sign_authoring.alphabet.spelling_hand import fit_robot_hand
 from teo_sign_authoring.cli.capture_table import demonstration_main, letters_main
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
-from teo_sign_languages import DEFAULT_LANGUAGE, Language, LetterClips, load_language
+from teo_sign_languages import DEFAULT_LANGUAGE, Alphabet, Language, LetterClips, load_language
 from teo_signs.look_up_table import Lut, LutError
 from teo_skeleton_retriever.lifting.hand_axes import palm_axes
 
@@ -111,7 +112,7 @@ def test_recordings_that_are_missing_or_of_others_are_refused(
     french = edited(clips=LetterClips(collection="fsl"))  # whose rows name the American files
     for language, code, said in (
         (french, "other_language", "files of ase under its name"),
-        (more, "no_clips", "none of Ñ"),
+        (more, "no_clips", "^Ñ: "),
     ):
         with pytest.raises(LutError, match=said) as caught:
             load_letter_clips(language)
@@ -126,18 +127,65 @@ def test_recordings_that_are_missing_or_of_others_are_refused(
     assert caught.value.code == "no_clips"
 
 
-def test_a_damaged_recording_is_refused_by_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def recordings_of(collection: str, *letters: str) -> Language:
+    """A language of some letters of a collection."""
+    alphabet = Alphabet(letters=letters, clips=LetterClips(collection=collection))
+    return msgspec.structs.replace(load_language("ase"), alphabet=alphabet)
+
+
+def test_a_recording_in_which_the_hand_comes_late_is_read_from_where_it_is_seen() -> None:
+    # The index spells sgg's Ä with a combining mark.
+    for collection, letter, frames in (("mfs", "S", 22), ("sgg", "Y", 31), ("sgg", "Ä", 33)):
+        clip = load_letter_clips(recordings_of(collection, letter))[letter]
+        assert len(clip.hand) == frames
+        assert np.isfinite(clip.hand).all()
+
+
+def test_a_letter_signed_with_the_left_hand_is_its_mirror_image() -> None:
+    # The Italian signer has her right hand down all the time. V stands up, its palm to the viewer.
+    clip = load_letter_clips(recordings_of("ise", "V"))["V"]
+    axes = palm_axes(np.median(clip.hand, axis=0)[None])[0]
+    assert axes[0, 2] > 0.7
+    assert axes[2, 0] > 0.7
+    # To her right, as right hands of the other collections are.
+    assert np.median(clip.hand[:, 0, 1]) < 250.0
+
+
+def test_a_letter_of_two_hands_is_refused() -> None:
+    # Turkish Sign Language spells with two hands, but for a few letters.
+    with pytest.raises(LutError, match=r"A: .*both hands") as caught:
+        load_letter_clips(recordings_of("tsm", "A", "C"))
+    assert caught.value.code == "two_hands"
+
+
+def test_a_damaged_recording_is_named_and_the_other_letters_are_made(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    lexicon = Path(str(resources.files("spoken_to_signed"))) / "assets" / "fingerspelling_lexicon"
     folder = tmp_path / "assets" / "fingerspelling_lexicon"
-    folder.mkdir(parents=True)
-    language = load_language(DEFAULT_LANGUAGE)
-    rows = [f"ssp/x.pose,ssp,{letter}" for letter in language.alphabet.letters]
+    (folder / "mfs").mkdir(parents=True)
+    for letter in "AL":
+        (folder / "mfs" / f"{letter}.pose").write_bytes((lexicon / "ssp" / clips()[letter].file).read_bytes())
+    (folder / "mfs" / "B.pose").write_bytes(b"\x00" * 40)
+    rows = [f"mfs/{letter}.pose,mfs,{letter}" for letter in "ABL"]
     (folder / "index.csv").write_text("\n".join(["path,signed_language,words", *rows]), "utf-8")
-    (folder / "ssp").mkdir()
-    (folder / "ssp" / "x.pose").write_bytes(b"\x00" * 40)
     monkeypatch.setattr("importlib.resources.files", lambda _: tmp_path)
-    with pytest.raises(LutError, match=r"x\.pose") as caught:
-        load_letter_clips(language)
-    assert caught.value.code == "bad_clip"
+    home = tmp_path / "teo" / "languages" / "mfs"
+    home.mkdir(parents=True)
+    (home / "language.yaml").write_text(
+        "{code: mfs, bcp47: mfs, names: {en: M, own: M, short: M}, spoken: {code: es, name: Spanish}, "
+        "alphabet: {letters: [A, B, L, Q], clips: {collection: mfs}}, sentences: [A]}"
+    )
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path))
+    monkeypatch.setattr(sys, "argv", ["capture_letters", "--language", "mfs", "--out", str(tmp_path / "lut")])
+    with pytest.raises(SystemExit) as caught:
+        letters_main()
+    said = " ".join(capsys.readouterr().err.split())
+    assert caught.value.code == 1
+    assert "bad_clip: B: B.pose" in said
+    assert "no_clips: Q: " in said
+    assert "2 of 4 letters left out: B, Q" in said
+    assert sorted(path.stem for path in (tmp_path / "lut").glob("*.json")) == ["A", "L"]
 
 
 # --- hand of the signer
