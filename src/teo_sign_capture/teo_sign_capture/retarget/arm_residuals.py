@@ -39,6 +39,7 @@ class ArmWeights:
         fore_arm: Weight of the direction from elbow to wrist.
         strayed: [m] A hand in the air that is so far from its place counts twice as much as by `in_air`
             alone, nearer hardly more; infinite if every centimetre counts the same.
+        raised: Weight of how far the elbow is above `ELBOW_UP` [rad/m]; 0 of an arm that may be lifted.
         easy: Pull of each joint towards an arm at ease.
         sideways: The same of joints that bend the hand sideways.
     """
@@ -50,9 +51,13 @@ class ArmWeights:
     upper_arm: float = 0.0
     fore_arm: float = 0.0
     strayed: float = np.inf
+    raised: float = 0.0
     easy: float
     sideways: float
 
+
+# [m] An elbow is about so thick: where it hangs, it is no higher above the shoulder.
+ELBOW_UP = 0.05
 
 # Weights for a motion captured from a person.
 CAPTURED = ArmWeights(
@@ -203,6 +208,13 @@ class ArmProblem:
         if weights.fore_arm:
             fore_arm = _unit(poses.origins[:, chain.wrist] - elbow)
             aims.append((weights.fore_arm, fore_arm, goals.fore_arm, chain.elbow + 1))
+        joints = np.arange(chain.count)
+        risen, rising = np.zeros((len(positions), 0)), np.zeros((len(positions), 0, chain.count))
+        if weights.raised:
+            above = elbow[:, 2] - chain.shoulder[2] - ELBOW_UP
+            risen = weights.raised * np.maximum(above, 0.0)[:, None]
+            way = poses.point_jacobian(elbow)[:, 2:] * (joints < chain.elbow)
+            rising = weights.raised * (above > 0.0)[:, None, None] * way
         at_place = weights.in_air + (weights.on_body - weights.in_air) * goals.contact[frames, None]
         off = points - goals.place[frames]
         away, astray = self._astray(off, at_place, goals.contact[frames])
@@ -210,15 +222,16 @@ class ArmProblem:
             [
                 away,
                 *(weight * (aim - wanted[frames]) for weight, aim, wanted, _ in aims),
+                risen,
                 self._pulls * (positions - self._easy),
             ],
             axis=1,
         )
-        joints = np.arange(chain.count)
         slopes = np.concatenate(
             [
                 astray @ poses.point_jacobian(points),
                 *(weight * poses.direction_jacobian(aim) * (joints < end) for weight, aim, _, end in aims),
+                rising,
                 np.broadcast_to(np.diag(self._pulls), (len(positions), chain.count, chain.count)),
             ],
             axis=1,

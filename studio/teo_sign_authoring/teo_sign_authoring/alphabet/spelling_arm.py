@@ -123,6 +123,8 @@ _WEIGHTS = ArmWeights(
     # share of its axis to the little finger's side.
     palm=0.77,
     fingers=0.77,
+    # Nobody lifts an elbow to spell: 2 cm too high count as much as 11 deg of the palm. The hand goes lower.
+    raised=10.0,
     # Chooses among equals, moves a reachable hand by less than 1 deg.
     easy=0.03,
     sideways=0.03,

@@ -25,6 +25,7 @@ from teo_sign_authoring.alphabet.letter_likeness import features
 from teo_sign_authoring.alphabet.spelling_arm import spelling_bounds
 from teo_sign_authoring.easing.linear_program import BEND, DIRECTIONS, FOLDED, FOLDED_BEND, TURN
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
+from teo_sign_capture.retarget.arm_residuals import ELBOW_UP
 from teo_sign_capture.retarget.knots import least_clearance
 from teo_signs.sign import Sign
 
@@ -228,8 +229,10 @@ class LetterTolerance:
                 for axis in self._turned_from
             )
             blocks.append((self._of_arm(DIRECTIONS @ places[at]), _SHIFT - DIRECTIONS @ shifted, _SHIFT))
-            lifted = elbows[at] - self._poses.origins[at, self._chain.elbow]
-            blocks.append((self._of_arm(_ELBOW_WAYS @ raising[at]), _ELBOW - _ELBOW_WAYS @ lifted, _ELBOW))
+            captured = self._poses.origins[at, self._chain.elbow]
+            rise = float(np.clip(self._chain.shoulder[2] + ELBOW_UP - captured[2], 0.0, _ELBOW))
+            room = np.array([_ELBOW, rise, _ELBOW]) - _ELBOW_WAYS @ (elbows[at] - captured)
+            blocks.append((self._of_arm(_ELBOW_WAYS @ raising[at]), room, _ELBOW))
             facing = np.isfinite(self._off_face)
             blocks.append(
                 (self._of_arm(places[at, 1:][facing]), (self._off_face - shifted[1:])[facing], _FACE_SCALE)

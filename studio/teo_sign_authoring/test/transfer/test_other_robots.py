@@ -14,6 +14,7 @@ from typer.testing import CliRunner, Result
 from teo_common.arrays import Array
 from teo_description.robot import Robot
 from teo_lut_executor.cli.lut import app
+from teo_motion.sentence.posture_choice import postures_of
 from teo_sign_authoring.notation.handshapes import handshape
 from teo_sign_authoring.transfer.entry_postures import BodyToBody
 from teo_sign_authoring.transfer.language_signs import LanguageSigns
@@ -74,6 +75,28 @@ def test_letters_with_a_palm_to_the_front_have_it_and_fingers_up() -> None:
         palm = frame(table()[letter], robot().humanoid.file.hand.palm)
         assert palm[:3, 2] @ (1.0, 0.0, 0.0) > 0.7, letter
         assert palm[:3, 0] @ (0.0, 0.0, 1.0) > 0.7, letter
+
+
+@pytest.mark.parametrize("language", ["ssp", "ase"])
+@pytest.mark.parametrize(
+    ("name", "shoulder", "elbow"),
+    [
+        ("teo", "FrontalRightShoulder", "FrontalRightElbow"),
+        (ROBOT, "right_shoulder_roll_joint", "right_elbow_pitch_joint"),
+    ],
+)
+def test_no_robot_lifts_its_elbow_above_the_shoulder_to_spell(
+    name: str, shoulder: str, elbow: str, language: str
+) -> None:
+    speller = Robot.load(name)
+    letters = load_language(language).alphabet.letters
+    signs = Lut.open(load_language(language).table(name), language=language, robot=name)
+    for letter in letters:
+        for knots in postures_of(signs[letter]):
+            for row in knots[[0, len(knots) // 2, -1]].tolist():
+                q = speller.configuration(dict(zip(signs[letter].joints, row, strict=True)))
+                placed = speller.joint_placements(q, (shoulder, elbow))[:, 2, 3]
+                assert placed[1] - placed[0] < 0.055, letter  # about an elbow's thickness
 
 
 @pytest.mark.parametrize(
