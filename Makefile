@@ -46,7 +46,7 @@ slow: setup ## the tests that take long
 	@$(ENV) python -m pytest -m "slow and dds and not commands" --numprocesses 2 --dist loadfile
 
 commands: setup ## the commands of every page, as they stand there
-	@$(ENV) python -m pytest -m commands --numprocesses 2 --maxschedchunk 1
+	@$(ENV) python -m pytest test/test_readme_commands.py -m commands --numprocesses 2 --maxschedchunk 1
 
 robots: setup-run ## what other humanoids are drawn with, and the third one's description (215 MB)
 	@.venv/bin/python -m pip install --disable-pip-version-check --quiet --no-deps -r requirements/robots.txt
