@@ -17,7 +17,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from teo_common.arrays import Array
 from teo_description.humanoid import SIDES, Side
@@ -159,6 +158,8 @@ def _nearest(
     Returns:
         The arm, shape (joints,), and how far off its palm is [m] and [rad].
     """
+    from scipy.optimize import least_squares  # here: 0.3 s that who signs with the right hand does without
+
     humanoid = robot.humanoid
     joints = humanoid.arm(side)
     limits = humanoid.limits(joints)
