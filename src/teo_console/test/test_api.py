@@ -12,7 +12,9 @@ from typing import Any
 import pytest
 from console_api import Api
 
+from teo_console.api.dictionary import topics_of
 from teo_console.jobs.commands import Commands
+from teo_sign_languages import load_language
 
 BAG = b"\x89MCAP0\r\n" + bytes(1000)
 
@@ -90,6 +92,12 @@ def test_what_makes_no_sense_is_refused_with_a_reason(
     got, answer = api.ask(method, path, body)
     assert (got, answer["code"]) == (status, code)
     assert recordings(api) == []
+
+
+def test_words_are_found_by_what_they_are_about() -> None:
+    topics = topics_of(load_language("ssp"))
+    assert "family" in topics["MADRE"]
+    assert topics["ROJO"][0] == "colour"
 
 
 def test_a_body_that_is_no_film_may_not_be_large(api: Api) -> None:

@@ -340,6 +340,15 @@ def test_the_robot_is_seen_from_three_places_as_in_a_mirror_and_slower(new_page:
         page.click(f"[data-camera={camera}]")
         expect(page.locator("[data-camera][aria-pressed=true]")).to_have_attribute("data-camera", camera)
         drawn.append(seen_anew(page, drawn))
+    page.click("[data-camera=front]")
+    expect(page.locator(".inset")).to_be_visible()  # the hand, beside the whole
+    drawn = [seen_anew(page, drawn[1:])]
+    page.focus(".stage canvas")
+    for _ in range(4):
+        page.keyboard.press("ArrowLeft")
+    drawn.append(seen_anew(page, drawn))
+    page.click("[data-camera=hand]")
+    drawn.append(seen_anew(page, drawn))
     page.click("#mirror")
     mirrored = seen(page)
     page.click("#mirror")

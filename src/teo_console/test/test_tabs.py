@@ -37,7 +37,11 @@ def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
 def test_a_sign_is_filmed_looked_at_accepted_and_signed_and_then_practised(
     new_page: NewPage, pictures: Path, tmp_path: Path, film: Film
 ) -> None:
-    page = new_page(tab="teach/SALUDAR")
+    page = new_page(tab="teach")
+    page.click("#camera-start")  # the word comes first, or the film would be for nothing
+    expect(page.locator("#teach-gloss")).to_be_focused()
+    expect(page.locator("#camera-record")).to_be_hidden()
+    page.fill("#teach-gloss", "saludar")
     accessible(page)
     page.select_option(".camera select", "6")
     wait_until_ready(page)
@@ -49,7 +53,11 @@ def test_a_sign_is_filmed_looked_at_accepted_and_signed_and_then_practised(
         scene.running = False
         expect(page.locator("#outcome-title")).to_be_visible(timeout=LONG)
         scene.running = True
-        expect(page.locator(".gate.passed, .gate.failed")).to_have_count(6)  # no contact, no gate of contacts
+        expect(page.locator(".gate.passed, .gate.failed")).to_have_count(7)  # no contact, no gate of contacts
+        place = page.locator("[data-gate=place_off]")
+        expect(place).to_contain_text(re.compile(r"hasta a \d+ cm de su sitio"))
+        place.get_by_role("button", name="Lo peor").click()
+        expect(page.locator(".side-by-side video")).to_have_js_property("paused", True)
         expect(page.locator(".similar li")).to_have_count(5)
         page.click("form button[type=submit]")  # nothing is kept without consent
         expect(page.locator("#notice")).to_be_visible()
@@ -70,7 +78,10 @@ def test_a_sign_is_filmed_looked_at_accepted_and_signed_and_then_practised(
     accessible(page)
     photograph(page, pictures, "practise")
     assert practised(page, "dormir", again) == "practise.other"
-    assert page.locator(".difference.large").count() > 0
+    different, same = page.locator(".difference.large").first, page.locator(".difference.small").first
+    full = [each.locator("meter").evaluate("bar => bar.value") for each in (different, same)]
+    assert full[0] < full[1]  # a long bar is a good one
+    expect(page.locator(".side-by-side video")).to_be_visible()
 
 
 def thinned(folder: Path) -> Path:
@@ -101,6 +112,9 @@ def test_signs_are_reviewed_blind_and_the_export_says_how(
 ) -> None:
     page = new_page(tab="review")
     page.fill("#new-title", "Dos")
+    page.fill("#new-glosses", "casa\ntornillo\nmadre")
+    page.click("form button[type=submit]")
+    expect(page.locator("#notice")).to_contain_text("tornillo", timeout=LONG)
     page.fill("#new-glosses", "casa\nmadre")
     page.select_option("#new-choices", "")
     page.click("form button[type=submit]")
@@ -122,6 +136,8 @@ def test_signs_are_reviewed_blind_and_the_export_says_how(
             accessible(page)
             photograph(page, pictures, "reviewing")
         is_house = "CASA" in page.locator(".meaning").inner_text()
+        page.click("form button[type=submit]")
+        expect(page.locator("#notice")).to_have_text("Di antes cómo lo hace: correcto, se entiende o mal.")
         page.check("#rating-right" if is_house else "#rating-wrong")
         page.check("#flag-movement")
         page.fill("#comment", "<img src=x onerror=alert(1)>")  # shown as text, or the page fails the test

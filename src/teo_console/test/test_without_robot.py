@@ -91,6 +91,11 @@ def test_a_sign_is_found_by_its_word_and_handshape_and_a_text_says_what_to_recor
     api: Api, page: Page, pictures: Path
 ) -> None:
     page.goto(f"{api.url}/#dictionary")
+    page.select_option("#search-kind", "number")
+    numbers = [int(number) for number in page.locator(".words button").all_inner_texts()]
+    assert numbers == sorted(numbers)
+    page.select_option("#search-kind", "")
+    page.select_option("#search-topic", "vehicle")
     page.fill("#search-word", "cóche")  # whatever the accents
     page.select_option("#search-hand", "A")
     expect(page.locator(".words button")).to_have_text(["COCHE"])
@@ -121,6 +126,15 @@ def test_a_bag_is_taught_and_nothing_of_it_is_left_when_it_is_discarded(
     page.get_by_role("button", name="Descartar y repetir").click()
     expect(page.locator("#outcome-title")).to_have_count(0)
     assert not [path for path in api.folders.cache.glob("recordings-*/*") if path.is_dir()]
+
+
+def test_at_200_percent_the_header_leaves_three_quarters_of_the_screen(api: Api, browser: Browser) -> None:
+    page = browser.new_page(viewport={"width": 640, "height": 400}, locale="es-ES")
+    page.goto(api.url)
+    expect(page.locator("nav a")).to_have_count(5)
+    assert page.locator("header").evaluate("header => header.offsetHeight") <= 100
+    assert page.evaluate("document.documentElement.scrollWidth") <= 640
+    page.close()
 
 
 def test_a_comprehension_test_is_taken_in_a_browser_tells_nothing_and_is_reported(
@@ -170,7 +184,7 @@ def listed(gloss: str, source: str) -> dict[str, object]:
     """A sign as /api/signs has it."""
     return {
         "gloss": gloss, "language": "ssp", "source": source, "licence": "Apache-2.0", "handedness": "both",
-        "handshapes": [], "duration": 1.0, "standing": "described", "kind": "lexical",
+        "handshapes": [], "duration": 1.0, "standing": "described", "kind": "lexical", "topics": [],
     }  # fmt: skip
 
 

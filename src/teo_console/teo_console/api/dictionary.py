@@ -8,16 +8,20 @@ import re
 from pathlib import Path
 from typing import Annotated, Any
 
+import msgspec
 from aiohttp import web
 from msgspec import Meta, Struct
 
-from teo_console.api.workbench import WithGloss, Workbench
+from teo_console.api.workbench import WithGloss, Workbench, gloss_key
 from teo_console.errors import ConsoleError
 from teo_console.server.app import answering, body
+from teo_sign_languages import Language, load_language
 
 # A page of a book [characters]: it is translated sentence by sentence, some 50 ms each.
 _TEXT_LENGTH = 5000
 _SIGN_WRITING = ("signs.json", "drawings.svg")
+# Lists of words whose third column says what they are about.
+_CLASSIFIED = ("nouns.tsv", "adjectives.tsv")
 _FILM_NAME = re.compile(r"[0-9a-f]{64}\.mp4")
 
 
@@ -30,7 +34,12 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
     films = workbench.folders.cache / "films"
 
     async def signs(_: web.Request) -> Any:
-        return list((await workbench.table.signs.signs()).values())
+        table = workbench.table
+        topics = topics_of(load_language(table.commands.language))
+        return [
+            {**msgspec.structs.asdict(sign), "topics": topics.get(sign.gloss, ())}
+            for sign in (await table.signs.signs()).values()
+        ]
 
     async def want_film(request: web.Request) -> Any:
         sign = await workbench.table.signs.get((await body(request, WithGloss)).gloss)
@@ -63,6 +72,17 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
         web.post("/api/coverage", answering(coverage)),
         *sign_writing_routes(workbench.folders.signwriting),
     ]
+
+
+def topics_of(language: Language) -> dict[str, tuple[str, ...]]:
+    """What words are about ("family", "colour"), by gloss, as the language's lists of words have it."""
+    topics: dict[str, tuple[str, ...]] = {}
+    for name in _CLASSIFIED:
+        path = language.text / "lexicon" / name
+        lines = path.read_text("utf-8").splitlines() if path.is_file() else []
+        for lemma, _, classes, *_ in (line.split("\t") for line in lines if line and line[0] != "#"):
+            topics[gloss_key(lemma)] = (*topics.get(gloss_key(lemma), ()), *classes.split(","))
+    return topics
 
 
 def sign_writing_routes(folder: Path) -> list[web.RouteDef]:

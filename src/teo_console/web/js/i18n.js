@@ -38,5 +38,8 @@ export function t(key, values = {}) {
   return (words[key] ?? key).replace(/\{(\w+)\}/g, (whole, name) => values[name] ?? words[`name.${name}`] ?? whole);
 }
 
+/** A figure as the language writes it, with so many decimals at most. */
+export const figure = (value, decimals = 1) => value.toLocaleString(document.documentElement.lang, { maximumFractionDigits: decimals });
+
 /** Whether there are words of that key. */
 export const has = (key) => key in words;

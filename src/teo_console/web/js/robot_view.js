@@ -20,6 +20,13 @@ const TOP = 0.8087; // TEO
 const DARKER = 0.45; // the light of what is no hand: hands are to stand out from the trunk
 const FINGERS = 3; // links on which so many chains of joints hang, and none with as many, are hands
 const WIDEST_VIEW = 90; // [deg], to which a narrow picture may open
+// The hand that signs, in a corner of the picture: this part of its shorter side, on a ground that sets it apart.
+const INSET = 0.36;
+const INSET_VIEW = 28; // [deg]
+const INSET_GROUND = 0x3b5063;
+// Where the picture is turned by an arrow key, so far [rad], and no nearer to straight above or below.
+const TURN = Math.PI / 18;
+const STEEPEST = 0.2;
 // A hand that moved this much more than the other is the one that signs [m], within about a second of frames.
 const HAND_LEAD = 0.02;
 const FORGET = 0.97;
@@ -42,8 +49,8 @@ let description = null; // one download for all views
  * Places the robot.
  * @param {HTMLElement} place Gets the picture as its child; its size is the picture's.
  * @param {Object} options `socket`, `live`, `t`.
- * @returns {Promise<Object>} `camera(name)`, `mirrored(on)`, `play(motion)`, `follow()`, `remove()`, and `frames`, how
- *   many pictures have been drawn.
+ * @returns {Promise<Object>} `camera(name)`, `mirrored(on)`, `play(motion)`, `hold(share)`, `follow()`, `remove()`,
+ *   `rate`, the seconds of a played motion a second, and `frames`, how many pictures have been drawn.
  */
 export async function robotView(place, { socket, live, t }) {
   const view = new RobotView(place, live, t);
@@ -53,6 +60,7 @@ export async function robotView(place, { socket, live, t }) {
 
 class RobotView {
   frames = 0;
+  rate = 1;
   #robot = null;
   #motion = null;
   #hand = new HandThatSigns({});
@@ -81,7 +89,10 @@ class RobotView {
     this.canvas = this.renderer.domElement;
     this.canvas.setAttribute("role", "img");
     this.canvas.setAttribute("aria-label", t("view.label"));
-    place.prepend(this.canvas);
+    this.canvas.tabIndex = 0;
+    this.canvas.addEventListener("keydown", (event) => this.#turn(event));
+    this.inset = h("div", { class: "inset", hidden: true });
+    place.prepend(this.canvas, this.inset);
     this.scene = new Scene();
     this.scene.add(new HemisphereLight(0xffffff, 0x8a96a3, 2.2));
     const sun = new DirectionalLight(0xffffff, 1.8);
@@ -89,6 +100,9 @@ class RobotView {
     this.scene.add(sun);
     this.eye = new PerspectiveCamera(CAMERAS.front.view, 1, 0.02, 20);
     this.eye.up.set(0, 0, 1);
+    this.handEye = new PerspectiveCamera(INSET_VIEW, 1, 0.02, 20);
+    this.handEye.up.set(0, 0, 1);
+    this.handAt = new Vector3();
     this.controls = new OrbitControls(this.eye, this.canvas);
     this.controls.addEventListener("change", () => (this.#dirty = true));
     this.camera("front");
@@ -129,8 +143,9 @@ class RobotView {
     this.#preset = name;
     if (!this.eye) return;
     const { from, at } = CAMERAS[name];
+    this.#chase(1);
     if (name === "hand") {
-      this.#chase(1);
+      this.#lookAtHand();
     } else {
       this.eye.position.set(from[0], from[1], from[2] * this.#height);
       this.controls.target.set(at[0], at[1], at[2] * this.#height);
@@ -149,7 +164,17 @@ class RobotView {
    * @param {{joints: string[], times: number[], positions: number[][]}} motion Times from 0 [s], positions [rad].
    */
   play(motion) {
-    this.#motion = { ...motion, began: performance.now() / 1000 };
+    this.#motion = { ...motion, time: 0, held: false };
+  }
+
+  /** Stands still at a moment of the motion that is played, 0 at its begin to 1 at its end. */
+  hold(share) {
+    this.#motion = { ...this.#motion, time: share * this.#motion.times.at(-1), held: true };
+  }
+
+  /** Whether it plays a motion of its own. */
+  get plays() {
+    return this.#motion !== null;
   }
 
   /** Follows the robot again. */
@@ -176,14 +201,14 @@ class RobotView {
     const passed = (now - before) / 1000;
     requestAnimationFrame(() => this.#draw(now));
     const time = this.live.clock.now();
-    const [joints, positions] = this.#motion ? this.#played() : [this.live.track.joints, this.live.track.at(time)];
+    const [joints, positions] = this.#motion ? this.#played(passed) : [this.live.track.joints, this.live.track.at(time)];
     if (this.#robot && positions && !same(positions, this.#shown)) {
       joints.forEach((name, i) => this.#robot.setJointValue(name, positions[i]));
       this.#shown = positions;
       this.#dirty = true;
       this.#hand.look();
     }
-    if (this.#preset === "hand") this.#chase(1 - Math.exp(-passed / CHASE));
+    this.#chase(1 - Math.exp(-passed / CHASE));
     if (!this.#dirty) {
       this.#drawnAt = null;
       return;
@@ -195,6 +220,7 @@ class RobotView {
   #render() {
     this.#dirty = false;
     this.renderer.render(this.scene, this.eye);
+    if (!this.inset.hidden) this.#renderInset();
     this.frames += 1;
   }
 
@@ -208,11 +234,40 @@ class RobotView {
     this.#resize();
   }
 
-  #played() {
-    const { joints, times, positions, began } = this.#motion;
+  #renderInset() {
+    const { offsetLeft, offsetTop, clientWidth: side } = this.inset;
+    // In the picture's own axes, up from its lower edge; it is the canvas that is mirrored, not what is drawn.
+    const left = this.place.classList.contains("mirrored") ? this.place.clientWidth - offsetLeft - side : offsetLeft;
+    const box = [left, this.place.clientHeight - offsetTop - side, side, side];
+    this.renderer.setScissorTest(true);
+    this.renderer.setScissor(...box);
+    this.renderer.setViewport(...box);
+    this.renderer.setClearColor(INSET_GROUND, 1);
+    this.renderer.render(this.scene, this.handEye);
+    this.renderer.setClearColor(0, 0);
+    this.renderer.setScissorTest(false);
+    this.renderer.setViewport(0, 0, this.place.clientWidth, this.place.clientHeight);
+  }
+
+  #turn(event) {
+    const keys = { ArrowLeft: [-TURN, 0], ArrowRight: [TURN, 0], ArrowUp: [0, -TURN], ArrowDown: [0, TURN] };
+    if (!(event.key in keys)) return;
+    event.preventDefault(); // the page stays where it is
+    const [aside, down] = keys[event.key];
+    const away = this.eye.position.clone().sub(this.controls.target).applyAxisAngle(this.eye.up, aside);
+    const steep = Math.min(Math.max(away.angleTo(this.eye.up) + down, STEEPEST), Math.PI - STEEPEST) - away.angleTo(this.eye.up);
+    away.applyAxisAngle(this.eye.up.clone().cross(away).normalize(), steep);
+    this.eye.position.copy(this.controls.target).add(away);
+    this.controls.update();
+    this.#dirty = true;
+  }
+
+  #played(passed) {
+    const { joints, times, positions, held } = this.#motion;
     const last = times.at(-1);
     const pause = 1; // [s] before it begins again
-    const time = Math.min((performance.now() / 1000 - began) % (last + pause), last);
+    if (!held) this.#motion.time = (this.#motion.time + passed * this.rate) % (last + pause);
+    const time = Math.min(this.#motion.time, last);
     const after = Math.max(times.findIndex((each) => each >= time), 0);
     const before = Math.max(after - 1, 0);
     const share = after === before ? 0 : (time - times[before]) / (times[after] - times[before] || 1);
@@ -226,11 +281,18 @@ class RobotView {
     const at = link.getWorldPosition(new Vector3());
     const side = this.#hand.side === "right" ? 1 : -1;
     const eye = at.clone().add(new Vector3(from[0], from[1] * side, from[2]));
-    if (this.controls.target.distanceTo(at) < 1e-3 && this.eye.position.distanceTo(eye) < 1e-3) return;
-    this.controls.target.lerp(at, share);
-    this.eye.position.lerp(eye, share);
-    this.controls.update();
+    if (this.handAt.distanceTo(at) < 1e-3 && this.handEye.position.distanceTo(eye) < 1e-3) return;
+    this.handAt.lerp(at, share);
+    this.handEye.position.lerp(eye, share);
+    this.handEye.lookAt(this.handAt);
+    if (this.#preset === "hand") this.#lookAtHand();
     this.#dirty = true;
+  }
+
+  #lookAtHand() {
+    this.eye.position.copy(this.handEye.position);
+    this.controls.target.copy(this.handAt);
+    this.controls.update();
   }
 
   #resize() {
@@ -243,6 +305,8 @@ class RobotView {
     const { view, across = view } = CAMERAS[this.#preset];
     this.eye.fov = Math.min(Math.max(view, across / this.eye.aspect), WIDEST_VIEW);
     this.eye.updateProjectionMatrix();
+    this.inset.hidden = this.#preset === "hand" || !this.#hand.link;
+    this.inset.style.width = this.inset.style.height = `${Math.round(INSET * Math.min(clientWidth, clientHeight))}px`;
     this.#render(); // at once: a canvas of another size is an empty one
   }
 }

@@ -24,10 +24,7 @@ export function statusOf(connected, situation) {
   }
   if (robot.mode === "inactive") return { text: t("status.inactive"), tone: "warn" };
   if (robot.mode === "paused") return { text: t("status.paused"), tone: "warn" };
-  const unwell = nodes.find(({ state }) => state === "unwell");
-  const signing = current ? t("status.signing", { text: current.text || t("untitled") }) : null;
-  if (signing) return { text: signing, tone: unwell ? "warn" : "good" };
-  if (unwell) return { text: t("status.unwell", { node: t(`node.${unwell.role}`) }), tone: "warn" };
+  if (current) return { text: t("status.signing", { text: current.text || t("untitled") }), tone: "good" };
   if (robot.executor === "waiting" && queue.length) return { text: t("status.waiting"), tone: "good" };
   if (robot.mode === "moving") return { text: t("status.moving"), tone: "good" };
   return { text: t("status.ready"), tone: "good" };

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, cast
 
 import typer
 
-from teo_description.errors import DescriptionError
-from teo_description.humanoid import DEFAULT_ROBOT, load_humanoid
+from teo_description.humanoid import DEFAULT_ROBOT
 from teo_sign_capture.cli.options import (
     Accept,
     AsJson,
@@ -41,9 +40,10 @@ from teo_sign_capture.cli.options import (
     Topic,
     Trial,
     Workers,
+    known_language,
 )
 from teo_sign_capture.cli.reporting import JsonReporter, Reporter, TerminalReporter
-from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
+from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import user_lut_directory
 from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP
@@ -93,7 +93,7 @@ def capture(
     from teo_sign_capture.recordings.recording import default_cache, is_bag
 
     try:
-        language = _known_language(robot, language)
+        language = known_language(robot, language)
         table = lut or user_lut_directory(language, robot)
         settings = Settings(
             table=table,
@@ -137,15 +137,6 @@ def capture(
     except LutError as error:
         reporter.failed(gloss, error)
         raise typer.Exit(1) from error
-
-
-def _known_language(robot: str, language: str) -> str:
-    """The language's code, if there are such a robot and language."""
-    try:
-        load_humanoid(robot)
-        return load_language(language).code
-    except (DescriptionError, LanguageError) as error:
-        raise LutError(error.code, str(error)) from error
 
 
 def _filmed(camera: int, gloss: str, seconds: float, reporter: Reporter) -> Path:

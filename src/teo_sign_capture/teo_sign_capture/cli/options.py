@@ -9,6 +9,11 @@ from typing import Annotated, Literal
 
 import typer
 
+from teo_description.errors import DescriptionError
+from teo_description.humanoid import load_humanoid
+from teo_sign_languages import LanguageError, load_language
+from teo_signs.errors import LutError
+
 Bags = Annotated[
     list[Path] | None,
     typer.Argument(
@@ -22,6 +27,19 @@ Bags = Annotated[
 def upper_case(gloss: str | None) -> str | None:
     """A gloss as it is written, however it was typed."""
     return gloss and gloss.upper()
+
+
+def known_language(robot: str, language: str) -> str:
+    """The language's code, if there are such a robot and language.
+
+    Raises:
+        LutError: "unknown_robot", "unknown_language" or what else is wrong with them.
+    """
+    try:
+        load_humanoid(robot)
+        return load_language(language).code
+    except (DescriptionError, LanguageError) as error:
+        raise LutError(error.code, str(error)) from error
 
 
 Gloss = Annotated[str | None, typer.Option(help="Name of the sign; not with a folder.", callback=upper_case)]

@@ -31,13 +31,15 @@ class _Gate(NamedTuple):
 
 
 # The most of each figure, unasked: a fifth of the frames filled in is a beat of a repeated sign that nobody
-# saw; 45 deg is half-way to the palm's next cardinal direction, at which signs differ; 50 mm is from chin to
-# nose; of a sign whose major place is wrong in a tenth of the stroke the wrong place is held long enough to
-# be read; at a sixth of the pace a stroke of half a second lasts three, and reads as several.
-# And with consent: of a hand that is lost in half of the frames more is guessed than seen; at 90 deg the palm
-# faces the next cardinal direction, which is another sign's; 100 mm is from chin to eyes, so that a touch is
-# at no place near its own; in half of the stroke the wrong place is the sign's place; at a tenth of the pace
-# a mere touch of 0.3 s lasts 3 s, as long as the longest signs.
+# saw; 45 deg is half-way to the palm's next cardinal direction, at which signs differ; 50 mm is from chin
+# to nose; TEO's elbow keeps a hand that belongs beside the head 200 mm off, which is as high as a region
+# (face, chest, belly) is; of a sign whose major place is wrong in a tenth of the stroke the wrong
+# place is held long enough to be read; at a sixth of the pace a stroke of half a second lasts three, and
+# reads as several.
+# And with consent: of a hand that is lost in half of the frames more is guessed than seen; at 90 deg the
+# palm faces the next cardinal direction, which is another sign's; 100 mm is from chin to eyes, so that a
+# touch is at no place near its own; 400 mm are two regions; in half of the stroke the wrong place is the
+# sign's place; at a tenth of the pace a mere touch of 0.3 s lasts 3 s, as long as the longest signs.
 _GATES = (
     _Gate(
         "much_lost",
@@ -68,13 +70,22 @@ _GATES = (
         "show the touch before the body, not beside or behind it",
     ),
     _Gate(
+        "place_off",
+        "place_error_p95_mm",
+        210.0,
+        400.0,
+        " mm",
+        "a hand's error of place",
+        "show it farther before the body and nearer to the middle, where the robot's arms reach",
+    ),
+    _Gate(
         "wrong_place",
         "major_place_wrong",
         0.10,
         0.5,
         " of the stroke",
         "a major place that differs from the person's in",
-        "show it farther before the body and nearer to the middle, where TEO's arms reach",
+        "show it farther before the body and nearer to the middle, where the robot's arms reach",
     ),
     _Gate(
         "too_slow",
@@ -96,13 +107,16 @@ class Verdict:
     """How a captured sign stands at one gate.
 
     Attributes:
-        code: Stable reason of a refusal: "much_lost", "palm_off", "contact_off", "wrong_place", "too_slow",
-            "too_short" or "no_rest".
+        code: Stable reason of a refusal: "much_lost", "palm_off", "contact_off", "place_off", "wrong_place",
+            "too_slow", "too_short" or "no_rest".
         passed: Whether it keeps to the gate.
         acceptable: Whether a person may take it all the same.
         message: What was expected and what came.
         remedy: What to do where it does not.
         at: When in the recording it is worst [s]; None where no moment is.
+        got: The figure that is judged, in the unit of the entry's `quality`; of "too_short" the stroke [s];
+            None of "no_rest".
+        bound: The most that it may be, of "too_short" the least; None of "no_rest".
     """
 
     code: str
@@ -111,6 +125,8 @@ class Verdict:
     message: str
     remedy: str
     at: float | None = None
+    got: float | None = None
+    bound: float | None = None
 
 
 class RefusedError(LutError):
@@ -156,6 +172,8 @@ def judge(
             + (f", worst at {worst[gate.figure]:.2f} s" if gate.figure in worst else ""),
             remedy=gate.remedy,
             at=worst.get(gate.figure),
+            got=quality[gate.figure],
+            bound=gate.most,
         )
         for gate in _GATES
         if gate.figure in quality
@@ -166,6 +184,8 @@ def judge(
         acceptable=duration >= _LEAST_ACCEPTED_DURATION,
         message=f"expected a stroke of {_LEAST_DURATION:g} s or more, got {duration:.2f} s",
         remedy="let the hands rest before and after it, or say where it is with --start and --end",
+        got=duration,
+        bound=_LEAST_DURATION,
     )
     got = "them" if has_rest else "a recording that begins and ends within it"
     rest = Verdict(

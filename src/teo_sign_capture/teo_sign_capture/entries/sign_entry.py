@@ -251,6 +251,7 @@ def _worst_moments(take: SignTake, slowest: float) -> dict[str, float]:
     place = np.nan_to_num(motion.place_error)
     frames = {
         "palm_error_p95_deg": np.nan_to_num(motion.palm_error),
+        "place_error_p95_mm": place,
         "contact_error_p95_mm": np.where(motion.contact > _TOUCHING, place, 0.0),
         "major_place_wrong": np.where(motion.wrong_place > 0.0, place, 0.0),
     }

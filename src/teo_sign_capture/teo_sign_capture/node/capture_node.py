@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterable
 from concurrent.futures import Future as Work
 from concurrent.futures import ThreadPoolExecutor
@@ -21,6 +22,7 @@ from std_msgs.msg import String
 from teo_sign_msgs.msg import SkeletonArray
 from teo_sign_msgs.srv import CaptureSign
 
+from teo_common.errors import CodedError
 from teo_common.node_process import run_node
 from teo_common.parameters import declare_parameters
 from teo_description.robot import Robot
@@ -33,6 +35,7 @@ from teo_sign_capture.entries.bag_capture import (
 )
 from teo_sign_capture.node.parameters import CAPTURE_PARAMETERS
 from teo_sign_capture.recordings.live_take import LiveTake, Phase
+from teo_sign_languages import LanguageError, load_language
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import user_lut_directory
 from teo_signs.sign_schema import SOURCE_STANDINGS
@@ -52,11 +55,16 @@ class CaptureNode(Node):
         Args:
             context: Of rclpy; None for the global one.
             parameter_overrides: Parameters beside those of the command line.
+
+        Raises:
+            DescriptionError: There is no such robot.
+            LanguageError: There is no such language.
         """
         super().__init__("capture", context=context, parameter_overrides=list(parameter_overrides))
         declare_parameters(self, CAPTURE_PARAMETERS)
+        load_language(self._value("language"))  # one that is not there is refused now
         self.add_on_set_parameters_callback(self._check_parameters)
-        self._robot = Robot.load()  # used by the worker alone
+        self._robot = Robot.load(self._value("robot"))  # used by the worker alone
         self._worker = ThreadPoolExecutor(1)
         self._request: CaptureSign.Request | None = None
         self._take: LiveTake | None = None
@@ -162,9 +170,13 @@ class CaptureNode(Node):
             self.get_logger().info(state)
 
     def _settings(self, replace: bool) -> Settings:
-        table = Path(self._value("lut_directory") or user_lut_directory())
+        robot = self._robot.humanoid.name
+        language = load_language(self._value("language")).code
+        table = Path(self._value("lut_directory") or user_lut_directory(language, robot))
         return Settings(
             table=table,
+            robot=robot,
+            language=language,
             replace=replace,
             standing=self._value("standing"),
             licence=self._value("licence"),
@@ -179,6 +191,11 @@ class CaptureNode(Node):
             if parameter.name == "standing" and parameter.value not in SOURCE_STANDINGS:
                 reason = f"standing: expected one of {', '.join(SOURCE_STANDINGS)}, got {parameter.value!r}"
                 return SetParametersResult(successful=False, reason=reason)
+            if parameter.name == "language":
+                try:
+                    load_language(parameter.value)
+                except LanguageError as error:
+                    return SetParametersResult(successful=False, reason=f"[{error.code}] {error}")
             if parameter.name == "licence" and not parameter.value:
                 return SetParametersResult(successful=False, reason="licence: expected a text, got none")
         return SetParametersResult(successful=True)
@@ -192,7 +209,10 @@ class CaptureNode(Node):
 
 def main(arguments: list[str] | None = None) -> None:
     """Run the node until it is told to end."""
-    run_node(CaptureNode, arguments, CAPTURE_PARAMETERS)
+    try:
+        run_node(CaptureNode, arguments, CAPTURE_PARAMETERS)
+    except CodedError as error:
+        sys.exit(f"capture: [{error.code}] {error}")
 
 
 if __name__ == "__main__":

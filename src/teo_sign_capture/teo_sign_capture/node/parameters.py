@@ -4,15 +4,22 @@
 
 from __future__ import annotations
 
-from teo_common.parameters import ParameterRow
+from teo_common.parameters import ROBOT, ParameterRow
 from teo_sign_capture.recordings.live_take import LONGEST_WAIT
+from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.sign_schema import SOURCE_STANDINGS
 
 CAPTURE_PARAMETERS = (
+    ROBOT,
+    ParameterRow(
+        name="language",
+        default=DEFAULT_LANGUAGE,
+        description="Sign language that entries are of, by its ISO 639-3 code.",
+    ),
     ParameterRow(
         name="lut_directory",
         default="",
-        description="Directory that entries go to; empty for the user's own table.",
+        description="Directory that entries go to; empty for the user's own table of language and robot.",
     ),
     ParameterRow(
         name="recordings_directory",

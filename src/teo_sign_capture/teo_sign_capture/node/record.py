@@ -13,18 +13,23 @@ from rich.console import Console
 from rich.live import Live
 from rich.text import Text
 
+from teo_description.humanoid import DEFAULT_ROBOT
 from teo_sign_capture.cli.options import (
     Accept,
     KindOption,
+    LanguageCode,
     Licence,
     Notes,
     Picture,
     Replace,
+    RobotName,
     StandingOption,
     TableDirectory,
+    known_language,
     upper_case,
 )
 from teo_sign_capture.cli.reporting import fail, tell
+from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import user_lut_directory
 
@@ -35,6 +40,8 @@ _output = Console(highlight=False)
 def record(
     gloss: Annotated[str, typer.Option(help="Name of the sign.", callback=upper_case)],
     countdown: Annotated[float, typer.Option(help="Seconds until the sign is to begin.")] = 3.0,
+    robot: RobotName = DEFAULT_ROBOT,
+    language: LanguageCode = DEFAULT_LANGUAGE,
     lut: TableDirectory = None,
     replace: Replace = False,
     kind: KindOption = "lexical",
@@ -61,9 +68,12 @@ def record(
     )
 
     try:
-        table = lut or user_lut_directory()
+        language = known_language(robot, language)
+        table = lut or user_lut_directory(language, robot)
         settings = Settings(
             table=table,
+            robot=robot,
+            language=language,
             replace=replace,
             kind=kind,
             standing=standing,
@@ -75,7 +85,7 @@ def record(
         check_free(gloss, settings)
         messages = _listen(countdown)
         _output.print(f"{len(messages)} images recorded")
-        saved = keep_and_capture(Robot.load(), gloss, messages, keep or default_recordings(), settings)
+        saved = keep_and_capture(Robot.load(robot), gloss, messages, keep or default_recordings(), settings)
         tell(captured_outcome(saved))
     except LutError as error:
         fail(error)

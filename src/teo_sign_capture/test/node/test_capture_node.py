@@ -96,12 +96,13 @@ def camera(graph: Graph) -> None:
 
 @pytest.mark.usefixtures("camera")
 def test_a_sign_is_recorded_saved_and_found_by_a_table_in_use(graph: Graph) -> None:
-    table = Lut.open(graph.directory / "lut")
+    graph.node.set_parameters([Parameter("language", value="ase")])
+    table = Lut.open(graph.directory / "lut", language="ase")
     response = graph.answer(graph.call("SIGNO"))
     assert response.success, response.message
     assert response.code == ""
     sign = read_sign(Path(response.path))
-    assert sign.provenance.standing == "recorded"
+    assert (sign.language, sign.robot, sign.provenance.standing) == ("ase", "teo", "recorded")
     assert 0.4 < sign.duration < 0.9
     assert Path(response.picture).is_file()
     assert "palm_error_p95_deg" in response.quality
@@ -137,5 +138,7 @@ def test_bad_parameters_are_refused_with_the_reason(graph: Graph) -> None:
     (result,) = graph.node.set_parameters([Parameter("standing", value="certain")])
     assert not result.successful
     assert "recorded" in result.reason
+    (result,) = graph.node.set_parameters([Parameter("language", value="nobody's")])
+    assert "unknown_language" in result.reason
     (result,) = graph.node.set_parameters([Parameter("longest_wait", value=0.0)])
     assert not result.successful

@@ -14,10 +14,11 @@ const second = (count = 1) => new Promise((resolve) => setTimeout(resolve, 1000 
 /**
  * Makes the part with which a sign is filmed.
  * @param {Object} context The tab's; its `attempt` says what goes wrong.
- * @param {Object} options `onFilm(blob)` is called with each film; `bags` lets bags be chosen as well.
+ * @param {Object} options `onFilm(blob)` is called with each film; `ready()` before anybody is filmed or a film is
+ *   chosen: what is still missing it says itself, and gives false; `bags` lets bags be chosen as well.
  * @returns {{element: HTMLElement, close: Function}}
  */
-export function camera({ t, notify }, { onFilm, bags = false }) {
+export function camera({ t, notify }, { onFilm, ready, bags = false }) {
   let stream = null;
   const preview = h("video", { muted: true, playsInline: true, class: "preview", "aria-label": t("camera.preview") });
   preview.muted = true;
@@ -26,8 +27,8 @@ export function camera({ t, notify }, { onFilm, bags = false }) {
   const start = h("button", { type: "button", class: "primary", id: "camera-start", on: { click: open } }, t("camera.start"));
   const record = h("button", { type: "button", class: "primary", id: "camera-record", hidden: true, on: { click: film } }, t("camera.record"));
   const seconds = h("select", { "aria-label": t("camera.seconds") }, ...SECONDS.map((each) => h("option", { value: String(each) }, t("camera.for", { seconds: each }))));
-  const file = h("input", { type: "file", accept: bags ? "video/*,.mcap" : "video/*", class: "visually-hidden", id: "film-file" });
-  const choose = h("label", { class: "button", for: "film-file" }, t(bags ? "camera.file_or_bag" : "camera.file"));
+  const file = h("input", { type: "file", accept: bags ? "video/*,.mcap" : "video/*", hidden: true, id: "film-file" });
+  const choose = h("button", { type: "button", on: { click: () => ready() && file.click() } }, t(bags ? "camera.file_or_bag" : "camera.file"));
   file.addEventListener("change", () => {
     if (file.files[0]) onFilm(file.files[0]);
     file.value = ""; // the same file may be chosen again
@@ -42,6 +43,7 @@ export function camera({ t, notify }, { onFilm, bags = false }) {
 
   /** Switches the camera on; whether it is. */
   async function open() {
+    if (!ready()) return false;
     try {
       stream = await navigator.mediaDevices.getUserMedia(CAMERA);
     } catch (error) {
@@ -58,7 +60,7 @@ export function camera({ t, notify }, { onFilm, bags = false }) {
   }
 
   async function film() {
-    if (!stream && !(await open())) return; // off since the film before
+    if (!ready() || (!stream && !(await open()))) return; // off since the film before
     record.disabled = true;
     for (let left = COUNTDOWN; left > 0; left--) {
       count.textContent = String(left);

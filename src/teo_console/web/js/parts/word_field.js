@@ -6,6 +6,9 @@ import { h } from "../dom.js";
 
 let fields = 0;
 
+/** A word as people type it, to as the table writes it. */
+export const glossOf = (word) => word.trim().toUpperCase().replaceAll(/\s+/g, "_");
+
 /**
  * Makes the field.
  * @param {string} label
@@ -18,5 +21,5 @@ export function wordField(label, signs) {
   signs.then((all) => words.append(...all.filter(({ kind }) => kind === "lexical").map(({ gloss }) => h("option", { value: gloss.replaceAll("_", " ") }))));
   const input = h("input", { type: "text", id, list: `${id}-words`, autocomplete: "off", maxlength: "60", spellcheck: "false" });
   const element = h("div", { class: "field" }, h("label", { for: id }, label), input, words);
-  return { element, input, value: () => input.value.trim().toUpperCase().replaceAll(/\s+/g, "_") };
+  return { element, input, value: () => glossOf(input.value) };
 }

@@ -4,6 +4,7 @@
 
 import { h } from "../dom.js";
 import { JobProgress } from "../parts/jobs.js";
+import { glossOf } from "../parts/word_field.js";
 
 export async function overview(element, context) {
   const { api, t, attempt } = context;
@@ -72,6 +73,7 @@ function verdict(t, { standing, right, reviewers }) {
 
 function newSeries({ api, t, attempt, notify }, refresh) {
   const progress = new JobProgress(api);
+  const signs = attempt(() => api.get("/api/signs")).then((all) => all ?? []);
   const kind = h("select", { id: "new-kind" }, ...["review", "comprehension"].map((name) => h("option", { value: name }, t(`review.${name}`))));
   const title = h("input", { type: "text", id: "new-title", maxlength: "100", autocomplete: "off" });
   const glosses = h("textarea", { id: "new-glosses", rows: "3" });
@@ -81,9 +83,16 @@ function newSeries({ api, t, attempt, notify }, refresh) {
   async function submit(event) {
     event.preventDefault();
     await attempt(async () => {
+      const wanted = glosses.value.split(/[\n,;]+/).map((each) => each.trim()).filter(Boolean);
+      const known = new Set((await signs).map(({ gloss }) => gloss));
+      const unknown = wanted.filter((each) => !known.has(glossOf(each)));
+      if (unknown.length) {
+        glosses.focus();
+        notify(t("review.unknown", { words: unknown.join(", ") }));
+        return;
+      }
       const { preparation } = await api.post("/api/series", {
-        kind: kind.value, title: title.value, choices: Boolean(choices.value),
-        glosses: glosses.value.split(/[\n,;]+/).map((each) => each.trim()).filter(Boolean),
+        kind: kind.value, title: title.value, choices: Boolean(choices.value), glosses: wanted,
         sentences: sentences.value.split("\n").map((each) => each.trim()).filter(Boolean),
       });
       await progress.prepared(preparation);

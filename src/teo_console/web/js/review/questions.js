@@ -3,20 +3,22 @@
 // One item after the other: the robot moves, the reviewer says what it was, and only then reads it and judges.
 
 import { h } from "../dom.js";
+import { pictureControls } from "../watch/picture_controls.js";
 
 const FLAGS = ["handshape", "place", "palm", "movement", "speed", "face"];
 const RATINGS = ["right", "understandable", "wrong"];
 
 export async function questions(element, context, series) {
-  const { api, t, attempt, settings, robotView } = context;
+  const { api, t, attempt, notify, settings, robotView } = context;
   const stage = h("div", { class: "picture" });
+  const seen = h("div", { class: "stack" }, stage);
   const asked = h("section", { class: "card stack", "aria-live": "polite" });
   const name = h("input", { type: "text", id: "reviewer", maxlength: "60", autocomplete: "nickname", required: true });
   name.value = settings.get("reviewer") ?? "";
   let view = null;
 
   const reviewer = () => name.value.trim();
-  const body = h("div", { class: "two", hidden: true }, stage, asked);
+  const body = h("div", { class: "two", hidden: true }, seen, asked);
   const begin = h("form", { class: "card stack", on: { submit: start } },
     h("p", {}, t("review.welcome")), h("div", { class: "field" }, h("label", { for: "reviewer" }, t("review.name")), name),
     h("div", { class: "row" }, h("button", { type: "submit", class: "primary" }, t("review.begin"))));
@@ -28,6 +30,7 @@ export async function questions(element, context, series) {
     begin.remove();
     body.hidden = false;
     view ??= await robotView(stage);
+    seen.append(pictureControls(context, view));
     await next();
   }
 
@@ -82,6 +85,7 @@ export async function questions(element, context, series) {
         const told = rating.querySelector(":checked");
         if (!told) {
           rating.querySelector("input").focus();
+          notify(t("review.rate_first"));
           return null;
         }
         await api.post(`/api/items/${question.item}/rating`, { reviewer: reviewer(), rating: told.value, flags: chosen, comment: comment.value });

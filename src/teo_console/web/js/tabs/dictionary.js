@@ -3,9 +3,10 @@
 // Dictionary: every sign of the table, what it is founded on, and how it looks; what of a text has signs.
 
 import { h } from "../dom.js";
-import { has } from "../i18n.js";
+import { figure, has } from "../i18n.js";
 import { JobProgress } from "../parts/jobs.js";
 import { signWriting } from "../parts/sign_writing.js";
+import { pictureControls } from "../watch/picture_controls.js";
 
 const MOST_SHOWN = 120; // more names than that nobody reads: the search is for them
 const MOST_WANTED = 20; // an afternoon before the camera
@@ -18,39 +19,71 @@ export async function mount(element, context) {
   const signs = (await attempt(() => api.get("/api/signs"))) ?? [];
   loading.remove();
   const chosen = card(context);
+  const found = search(context, signs, chosen.show);
   element.append(
-    h("div", { class: "two dictionary" }, search(context, signs, chosen.show), chosen.element, coverage(context)),
+    h("div", { class: "two dictionary" }, found.element, chosen.element, coverage(context)),
   );
-  return chosen.close;
+  return () => {
+    chosen.close();
+    found.close();
+  };
 }
 
-function search({ t }, signs, show) {
+function search(context, signs, show) {
+  const { t } = context;
+  const { compare } = new Intl.Collator(document.documentElement.lang, { numeric: true }); // 2 before 10, É as E
+  signs.sort((a, b) => compare(a.gloss, b.gloss));
   const word = h("input", { type: "text", id: "search-word", autocomplete: "off", spellcheck: "false" });
   const hand = select("search-hand", [["", t("dictionary.any")], ...[...new Set(signs.flatMap(({ handshapes }) => handshapes))].sort().map((name) => [name, name])]);
   const standing = select("search-standing", [["", t("dictionary.any")], ...["reviewed", "recorded", "measured", "described", "sketched"].map((name) => [name, t(`evidence.${name}`)])]);
+  const topics = [...new Set(signs.flatMap((sign) => sign.topics))].filter((name) => has(`topic.${name}`)).map((name) => [name, t(`topic.${name}`)]);
+  const topic = select("search-topic", [["", t("dictionary.any")], ...topics.sort(([, a], [, b]) => compare(a, b))]);
+  const shape = handshape(context, signs);
   const kind = select("search-kind", [["", t("dictionary.any")], ...["lexical", "letter", "number"].map((name) => [name, t(`kind.${name}`)])]);
   const count = h("p", { role: "status", class: "faint" });
   const list = h("ul", { class: "words", "aria-label": t("dictionary.results") });
   function find() {
     const wanted = plain(word.value);
-    const found = signs.filter((sign) => plain(sign.gloss).includes(wanted) && (!hand.value || sign.handshapes.includes(hand.value)) && (!standing.value || sign.standing === standing.value) && (!kind.value || sign.kind === kind.value));
+    const found = signs.filter((sign) => plain(sign.gloss).includes(wanted) && (!hand.value || sign.handshapes.includes(hand.value)) && (!topic.value || sign.topics.includes(topic.value)) && (!standing.value || sign.standing === standing.value) && (!kind.value || sign.kind === kind.value));
     found.sort((a, b) => plain(b.gloss).startsWith(wanted) - plain(a.gloss).startsWith(wanted));
     const shown = found.slice(0, MOST_SHOWN);
     const more = found.length - shown.length;
     count.textContent = t("dictionary.found", { count: found.length }) + (more > 0 ? ` ${t("dictionary.more", { more })}` : "");
     list.replaceChildren(...shown.map((sign) => h("li", {}, h("button", { type: "button", dataset: { gloss: sign.gloss }, on: { click: () => show(sign) } }, sign.gloss.replaceAll("_", " ")))));
   }
-  for (const each of [word, hand, standing, kind]) each.addEventListener("input", find);
+  for (const each of [word, topic, hand, standing, kind]) each.addEventListener("input", find);
+  hand.addEventListener("input", () => shape.show(hand.value));
   find();
-  return h(
+  const element = h(
     "section", { class: "card stack", "aria-labelledby": "search-title" },
     h("h2", { id: "search-title" }, t("dictionary.search")),
-    h("div", { class: "fields" }, field(t("dictionary.word"), word), field(t("dictionary.handshape"), hand), field(t("dictionary.standing"), standing), field(t("dictionary.kind"), kind)),
-    count, list,
+    h("div", { class: "fields" }, field(t("dictionary.word"), word), field(t("dictionary.topic"), topic), field(t("dictionary.handshape"), hand), field(t("dictionary.standing"), standing), field(t("dictionary.kind"), kind)),
+    shape.element, count, list,
   );
+  return { element, close: shape.close };
 }
 
-function card({ socket, api, t, attempt, robotView }) {
+/** What a handshape is: the robot's hand in the letter that it is called after. */
+function handshape({ socket, t, attempt, robotView }, signs) {
+  const stage = h("div", { class: "hand-stage" });
+  const words = h("p", {});
+  const element = h("div", { class: "handshape", hidden: true }, stage, words);
+  let view = null;
+  async function show(letter) {
+    element.hidden = !signs.some(({ gloss }) => gloss === letter);
+    if (element.hidden) return;
+    words.textContent = t("dictionary.handshape.means", { letter });
+    view ??= robotView(stage);
+    const answer = await attempt(() => socket.ask("get_sign", { gloss: letter }));
+    if (!answer) return;
+    (await view).play(answer.sign.motion);
+    (await view).camera("hand");
+  }
+  return { element, show, close: async () => (await view)?.remove() };
+}
+
+function card(context) {
+  const { socket, api, t, attempt, robotView } = context;
   const element = h("section", { class: "card stack", "aria-label": t("dictionary.sign") }, h("p", { class: "faint" }, t("dictionary.choose")));
   const progress = new JobProgress(api);
   let view = null;
@@ -63,7 +96,7 @@ function card({ socket, api, t, attempt, robotView }) {
     const facts = [
       ["dictionary.standing", t(`evidence.${sign.standing}`)], ["dictionary.source", sign.source], ["dictionary.licence", sign.licence],
       ["dictionary.hands", t(`hands.${sign.handedness}`)], ["dictionary.handshapes", sign.handshapes.join(", ") || "–"],
-      ["dictionary.duration", t("dictionary.seconds", { seconds: sign.duration.toFixed(1) })],
+      ["dictionary.duration", t("dictionary.seconds", { seconds: figure(sign.duration) })],
     ];
     const makeFilm = () => attempt(async () => {
       const made = await api.post("/api/films", { gloss: sign.gloss });
@@ -83,6 +116,7 @@ function card({ socket, api, t, attempt, robotView }) {
     ].filter(Boolean));
     element.querySelector("h2").focus();
     view = await robotView(stage);
+    stage.after(pictureControls(context, view));
     const answer = await attempt(() => socket.ask("get_sign", { gloss: sign.gloss }));
     if (answer) view.play(answer.sign.motion);
   }

@@ -5,6 +5,7 @@
 import { h } from "../dom.js";
 import { camera } from "../parts/camera.js";
 import { JobProgress } from "../parts/jobs.js";
+import { glossOf } from "../parts/word_field.js";
 import { gateList, GATES } from "../teach/gates.js";
 import { outcome } from "../teach/outcome.js";
 
@@ -15,18 +16,23 @@ export async function mount(element, context) {
   const hands = h("select", { id: "teach-hands" }, ...["", "right", "left", "both"].map((name) => h("option", { value: name }, t(`teach.hands.${name || "seen"}`))));
   const progress = new JobProgress(api);
   const result = h("div", {}, explained(t));
-  const filming = camera(context, { onFilm: (film) => attempt(() => look(film)), bags: true });
+  const filming = camera(context, { onFilm: (film) => attempt(() => look(film)), ready, bags: true });
   let recording = null;
   let shown = { close() {} };
 
-  const name = () => gloss.value.trim().toUpperCase().replaceAll(/\s+/g, "_");
+  const name = () => glossOf(gloss.value);
+
+  /** Whether the word is there, which the film is to show. */
+  function ready() {
+    if (name()) return true;
+    gloss.focus();
+    notify(t("teach.name_first"));
+    return false;
+  }
 
   /** Brings a film onto TEO and shows both; nothing is kept yet. */
   async function look(film) {
-    if (!name()) {
-      gloss.focus();
-      return notify(t("teach.name_first"));
-    }
+    if (!ready()) return;
     await discard();
     progress.begin("upload");
     try {
@@ -39,7 +45,6 @@ export async function mount(element, context) {
     shown = await outcome(context, { told, wanted, film, recording, progress, again: discard, forget });
     result.replaceChildren(shown.element);
     shown.element.querySelector("h2").focus();
-    return null;
   }
 
   /** Deletes the film on this machine: what it showed is in the table. */

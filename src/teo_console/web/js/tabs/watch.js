@@ -7,7 +7,7 @@ import { Listening } from "../listening.js";
 import { Captions } from "../watch/captions.js";
 import { composer } from "../watch/composer.js";
 import { explanation } from "../watch/explanation.js";
-import { history, queue } from "../watch/lists.js";
+import { history, queue, reports } from "../watch/lists.js";
 import { pictureControls } from "../watch/picture_controls.js";
 import { robotControls } from "../watch/robot_controls.js";
 import { spokenTexts } from "../watch/spoken_texts.js";
@@ -34,6 +34,7 @@ export async function mount(element, context) {
     robotControls(context, listening),
     queue(context, listening),
     history(context, listening),
+    reports(context, listening),
   );
   element.append(
     h("h1", { class: "visually-hidden" }, t("tab.watch")),

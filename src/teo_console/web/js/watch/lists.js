@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 TEO signing project
 // SPDX-License-Identifier: Apache-2.0
-// What waits, and what was.
+// What waits, what was, and what is reported.
 
 import { h } from "../dom.js";
 import { refusalText } from "../status.js";
@@ -22,6 +22,21 @@ export function queue({ socket, attempt, t }, listening) {
   listening.on(socket, "situation", show);
   if (socket.situation) show(socket.situation);
   return h("section", { class: "card", "aria-labelledby": "queue-title" }, h("h2", { id: "queue-title" }, t("queue.title")), nothing, list, clear);
+}
+
+/** What nodes report of themselves, in their own words: for whoever runs them. */
+export function reports({ socket, t }, listening) {
+  const element = h("div", {});
+  let shown = "";
+  function show({ nodes }) {
+    const unwell = nodes.filter(({ state }) => state === "unwell");
+    const now = JSON.stringify(unwell);
+    if (now === shown) return;
+    shown = now;
+    element.replaceChildren(...unwell.map(({ role, message }) => h("p", { class: "faint small" }, t("robot.reports", { node: t(`node.${role}`) }), " ", h("q", { lang: "en" }, message))));
+  }
+  listening.on(socket, "situation", show);
+  return element;
 }
 
 /** Sentences that were signed or refused, each to be signed again, and the last text that was not translated. */

@@ -28,7 +28,7 @@ export function pictureControls({ live, settings, t }, view) {
     mirror.setAttribute("aria-pressed", String(on));
   }
   function setRate() {
-    live.clock.rate = Number(rate.value);
+    live.clock.rate = view.rate = Number(rate.value);
     settings.set("viewRate", live.clock.rate);
   }
   function toLive() {
@@ -38,7 +38,7 @@ export function pictureControls({ live, settings, t }, view) {
   function showDelay() {
     if (!element.isConnected) return;
     const lag = live.clock.lag;
-    behind.hidden = live.clock.rate === 1 || lag < SHOWN_LAG;
+    behind.hidden = view.plays || live.clock.rate === 1 || lag < SHOWN_LAG;
     if (!behind.hidden) behind.textContent = t("picture.to_live", { lag: lag.toFixed(0) });
     setTimeout(showDelay, REFRESH);
   }
