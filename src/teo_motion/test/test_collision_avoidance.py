@@ -16,7 +16,7 @@ from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Samples
 from teo_names import COMMANDED_JOINTS, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_signs.errors import PlanError
-from teo_signs.look_up_table import Lut, default_lut_directory
+from teo_signs.look_up_table import Lut
 from teo_signs.sign import Sign
 from teo_signs.tokens import Token
 
@@ -25,16 +25,6 @@ HANGING, REST = load_humanoid().hanging, load_humanoid().ready
 OPEN = np.radians([0.0, -25.0, 7.0, 7.0, 7.0, 7.0])
 
 MakeSign = Callable[..., Sign]
-
-
-@pytest.fixture(scope="module")
-def robot() -> Robot:
-    return Robot.load()
-
-
-@pytest.fixture(scope="module")
-def lut() -> Lut:
-    return Lut.open(default_lut_directory())
 
 
 def arms(lut: Lut, gloss: str, knot: int) -> tuple[np.ndarray, np.ndarray]:

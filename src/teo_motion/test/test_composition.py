@@ -36,23 +36,6 @@ def held(composition: Composition, index: int) -> float:
     return float(composition.nominal[composition.spans[index].last - 1])
 
 
-def test_a_sentence_goes_from_rest_through_every_knot_to_rest(table: Mapping[str, Sign]) -> None:
-    composition = composed(table, "TÚ")
-    sign = table["TÚ"]
-    columns = [COMMANDED_JOINTS.index(name) for name in sign.joints]
-    np.testing.assert_array_equal(composition.targets[0], REST)
-    np.testing.assert_array_equal(composition.targets[1:4, columns], sign.knots)
-    np.testing.assert_array_equal(composition.targets[-1], REST)
-    np.testing.assert_allclose(composition.nominal[1:3], np.diff(sign.times))
-
-
-def test_between_signs_there_is_no_waypoint(table: Mapping[str, Sign]) -> None:
-    composition = composed(table, "TÚ CASA")
-    first, second = composition.spans
-    assert second.first == first.last + 1
-    assert composition.nominal[first.last] == STYLE.transition
-
-
 def test_letters_are_held_and_the_last_of_a_word_longer(table: Mapping[str, Sign]) -> None:
     composition = composed(table, "A-N C-A 1-7")
     holds = [held(composition, index) for index in range(6)]
@@ -79,17 +62,6 @@ def test_the_hands_stay_a_little_after_a_spelled_word(table: Mapping[str, Sign])
     word, sign = composition.spans[1], composition.spans[2]
     assert sign.first == word.last + 2, "one step to stay, one to go"
     assert composition.nominal[word.last] == STYLE.word_pause
-
-
-def test_equal_letters_are_parted_by_a_move_of_the_elbow(table: Mapping[str, Sign]) -> None:
-    composition = composed(table, "A-A")
-    first, second = composition.spans
-    assert second.first == first.last + 2
-    between = composition.targets[first.last + 1]
-    letter = composition.targets[first.last]
-    assert between[ELBOW] - letter[ELBOW] == pytest.approx(STYLE.repeat_angle)
-    moved = np.flatnonzero(between != letter)
-    assert set(moved) - set(np.flatnonzero(np.isnan(between))) == {ELBOW}, "the hand keeps its shape"
 
 
 def test_a_single_posture_is_held_and_the_last_sign_of_all(
@@ -134,14 +106,6 @@ def test_an_arm_stays_for_a_sign_of_its_hand_alone(
         composition.targets[composition.spans[1].first],
     )
     np.testing.assert_array_equal(before[RIGHT_ARM_COLUMNS[:6]], after[RIGHT_ARM_COLUMNS[:6]])
-
-
-def test_limbs_that_a_sign_does_not_use_are_free_and_listed_as_idle(table: Mapping[str, Sign]) -> None:
-    composition = composed(table, "CASA TÚ CASA")
-    middle = composition.spans[1]
-    assert np.isnan(composition.targets[middle.first : middle.last + 1, LEFT_COLUMNS]).all()
-    spans = {(span.first, span.last) for span in composition.idle if span.limb in ("left_arm", "left_hand")}
-    assert (composition.spans[0].last, composition.spans[2].first) in spans
 
 
 def test_a_knot_outside_the_limits_is_refused_by_name(make_sign: Callable[..., Sign]) -> None:

@@ -13,7 +13,7 @@ from teo_description.humanoid import load_humanoid
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
 from teo_motion.trajectory.limits import MotionLimits
-from teo_motion.trajectory.ruckig_segment import Bounds, RuckigSolver, State
+from teo_motion.trajectory.ruckig_segment import RuckigSolver, State
 from teo_names import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM
 from teo_signs.sign import Sign
 from teo_signs.tokens import parse_printed
@@ -94,14 +94,7 @@ def test_least_times_are_those_that_ruckig_finds(
         acceleration=acceleration * one,
         jerk=jerk * one,
     )
-    bounds = Bounds(
-        lower=-10 * one,
-        upper=10 * one,
-        velocity=limits.velocity,
-        acceleration=limits.acceleration,
-        jerk=limits.jerk,
-    )
     states = [State(position=p * one, velocity=0 * one, acceleration=0 * one) for p in (0.0, way)]
-    segment = RuckigSolver(1).segment(*states, bounds, duration=0.0)
+    segment = RuckigSolver(1).segment(*states, limits.bounds, duration=0.0)
     assert segment is not None
     assert limits.least_times(way * one, [0])[0] == pytest.approx(segment.duration, rel=1e-5)

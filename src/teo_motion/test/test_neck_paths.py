@@ -50,17 +50,6 @@ def window(
     )
 
 
-def test_a_shake_goes_from_side_to_side_from_begin_to_end() -> None:
-    path = next(shake_paths(1.0, window(0.0, 5.0, 9.0, 20.0)))
-    turns = [math.degrees(point.position) for point in path.points]
-    assert turns[:3] == pytest.approx([-12.0, 12.0, -12.0])
-    assert path.points[0].time == pytest.approx(5.0)
-    assert path.points[-1].time == pytest.approx(9.0, abs=0.35), "half a swing"
-    assert path.begin < 5.0 and path.end > path.points[-1].time
-    for earlier, later in pairwise(path.points):
-        assert least_time(math.radians(24.0)) <= later.time - earlier.time < 0.75
-
-
 def test_a_shake_without_room_for_both_sides_is_none() -> None:
     assert list(shake_paths(1.0, window(5.0, 5.2, 5.5, 6.5))) == []
 
@@ -103,13 +92,6 @@ def test_a_position_is_kept_as_long_as_there_is_room() -> None:
     assert list(hold_paths(0.15, window(5.0, 5.0, 5.9, 5.9))) == [], "not seen to be kept"
 
 
-def test_a_nod_is_lowest_in_the_middle_of_its_sign() -> None:
-    path = next(nod_paths(1.0, window(0.0, 5.0, 6.0, 20.0)))
-    up, down = path.points
-    assert math.degrees(up.position) == pytest.approx(-5.0)
-    assert math.degrees(down.position) == pytest.approx(9.0) and down.time == pytest.approx(5.5)
-
-
 def test_a_nod_with_little_room_is_a_bow() -> None:
     paths = list(nod_paths(1.0, window(5.0, 5.0, 6.0, 6.0)))
     assert paths and all(len(path.points) == 1 for path in paths)
@@ -134,14 +116,6 @@ def motion() -> JointMotion:
 
 def degrees(motion: JointMotion, *times: float) -> list[float]:
     return np.degrees(motion.at(np.array(times))[0]).tolist()
-
-
-def test_signs_are_turned_by_what_they_allow(leaning: Leaning, motion: JointMotion) -> None:
-    kept, shifts = [(5.0, 6.0), (8.0, 9.0)], [math.radians(4.0), math.radians(1.0)]
-    lean = leaning.leaned(motion, FORWARD, (4.0, 12.0), kept, shifts)
-    assert lean is not None
-    expected = [4.0, 4.0, 9.0, 1.0, 9.0, 9.0]
-    assert degrees(lean.motion, 5.5, 6.0, 7.0, 8.5, 10.5, 12.0) == pytest.approx(expected, abs=1e-6)
 
 
 def test_neighbours_without_time_for_the_way_between_are_turned_by_the_lesser(

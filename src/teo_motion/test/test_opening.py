@@ -20,12 +20,7 @@ from teo_signs.tokens import parse_printed
 REST = load_humanoid().ready
 
 STILL = State(position=REST, velocity=np.zeros(REST.size), acceleration=np.zeros(REST.size))
-SENTENCES = ("HOLA", "TÚ AGUA BEBER", "A-N-A", "MI NOMBRE", "352", "NO")
-
-
-@pytest.fixture(scope="module")
-def robot() -> Robot:
-    return Robot.load()
+SENTENCES = ("HOLA", "TÚ AGUA BEBER", "A-N-A", "NO")
 
 
 @pytest.fixture(scope="module")

@@ -23,11 +23,6 @@ LIMITS = MotionLimits.of_robot()
 REST = LIMITS.humanoid.ready
 
 
-@pytest.fixture(scope="module")
-def robot() -> Robot:
-    return Robot.load()
-
-
 def state(position: np.ndarray | None = None, velocity: np.ndarray | None = None) -> State:
     still = np.zeros(28)
     return State(
@@ -42,23 +37,6 @@ def refused(planner: Planner, tokens: list[Token], start: State | None = None) -
         planner.plan(tokens, start)
     assert str(refusal.value)
     return refusal.value.code
-
-
-def test_a_plan_has_a_row_of_all_joints_for_each_instant_and_a_time_for_each_token(
-    table: Mapping[str, Sign], robot: Robot
-) -> None:
-    result = Planner(table, robot=robot).plan(parse_printed("TÚ A-N-A"))
-    assert result.names == COMMANDED_JOINTS
-    assert result.positions.shape == (len(result.times), 28)
-    assert [timing.token.gloss for timing in result.timings] == ["TÚ", "A", "N", "A"]
-    assert result.nearest is not None and result.nearest.distance > 0.0
-
-
-def test_samples_cannot_be_changed(table: Mapping[str, Sign]) -> None:
-    result = Planner(table).plan(parse_printed("A"))
-    for array in (result.times, result.positions, result.velocities, result.accelerations):
-        with pytest.raises(ValueError, match="read-only"):
-            array[0] = 1.0
 
 
 def test_an_easy_sign_is_not_stretched_and_a_fast_one_says_by_how_much(
@@ -131,14 +109,6 @@ def test_a_sentence_can_begin_in_motion(table: Mapping[str, Sign]) -> None:
     result = Planner(table).plan(parse_printed("A"), state(position, velocity))
     assert result.velocities[0, elbow] == pytest.approx(0.6, abs=0.007)
     assert (np.abs(result.velocities) <= LIMITS.velocity).all()
-
-
-def test_the_way_to_rest_has_no_tokens(table: Mapping[str, Sign]) -> None:
-    position = REST.copy()
-    position[COMMANDED_JOINTS.index("FrontalRightElbow")] = -1.0
-    result = Planner(table).plan_to_rest(state(position))
-    assert result.timings == () and result.stretch == 1.0
-    np.testing.assert_allclose(result.positions[-1], REST, atol=1e-9)
 
 
 def test_a_start_too_fast_to_stay_within_the_limits_is_refused(table: Mapping[str, Sign]) -> None:

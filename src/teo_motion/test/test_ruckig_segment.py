@@ -55,26 +55,17 @@ def test_the_range_of_a_move_is_exact(
     assert least[0] >= dense.min() - 0.87 * step and greatest[0] <= dense.max() + 0.87 * step
 
 
-@pytest.mark.parametrize("bad", [np.nan, np.inf])
-def test_the_solver_is_not_given_what_is_no_number(bad: float) -> None:
+@pytest.mark.parametrize(
+    ("joints", "speed", "most"),
+    [(1, np.nan, 0.87), (1, np.inf, 0.87), (2, 0.0, 0.87), (1, 0.0, 0.0)],
+)
+def test_the_solver_is_given_numbers_of_its_joints_and_limits_above_0(
+    joints: int, speed: float, most: float
+) -> None:
+    start, end = (State(position=one(0.0), velocity=one(v), acceleration=one(0.0)) for v in (speed, 0.0))
     with pytest.raises(PlanError) as refusal:
-        moved((0.0, bad, 0.0), (1.0, 0.0, 0.0), 1.0)
+        RuckigSolver(joints).segment(start, end, bounds(velocity=most), duration=1.0)
     assert refusal.value.code == "bad_state"
-
-
-def test_the_solver_is_not_given_lists_of_the_wrong_length() -> None:
-    short = State(position=one(0.0), velocity=one(0.0), acceleration=one(0.0))
-    two = Bounds(
-        lower=-np.ones(2), upper=np.ones(2), velocity=np.ones(2), acceleration=np.ones(2), jerk=np.ones(2)
-    )
-    with pytest.raises(PlanError, match="expected 2 numbers"):
-        RuckigSolver(2).segment(short, short, two, duration=1.0)
-
-
-def test_the_solver_is_not_given_limits_of_zero() -> None:
-    still = State(position=one(0.0), velocity=one(0.0), acceleration=one(0.0))
-    with pytest.raises(PlanError, match="above 0"):
-        RuckigSolver(1).segment(still, still, bounds(velocity=0.0), duration=1.0)
 
 
 knot_lists = st.integers(2, 8).flatmap(

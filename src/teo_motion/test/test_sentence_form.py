@@ -2,22 +2,18 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from typing import cast
-
 import pytest
 
 from teo_motion.sentence.sentence_form import (
     STATEMENT,
     SentenceForm,
     SentenceType,
-    check_form,
     head_gestures,
     printed_form,
     without_marks,
     words_of,
 )
 from teo_sign_languages import HeadGrammar, load_language
-from teo_signs.errors import PlanError
 from teo_signs.tokens import Kind, Token, parse_printed
 
 SPANISH, AMERICAN = load_language("ssp").head, load_language("ase").head
@@ -81,13 +77,6 @@ def test_the_words_that_tell_are_the_languages() -> None:
         (False, False),
         (False, False),
     ]
-
-
-def test_a_type_that_is_none_is_refused() -> None:
-    check_form(STATEMENT)
-    with pytest.raises(PlanError, match=r"0 statement.*got 9") as refusal:
-        check_form(SentenceForm(type=cast(SentenceType, 9)))
-    assert refusal.value.code == "bad_type"
 
 
 NO, NEGATED_QUESTION = (

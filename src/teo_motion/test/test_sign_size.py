@@ -31,11 +31,6 @@ BEFORE = np.array(
 )
 
 
-@pytest.fixture(scope="module")
-def robot() -> Robot:
-    return Robot.load()
-
-
 def fitted(robot: Robot, sign: Sign, *, scale: float = 1.0, least: float = 0.6) -> Sign:
     size = SignSize(robot, limits=MotionLimits.of_robot(), least=least)
     token = Token(gloss=sign.gloss, kind=Kind.LEXICAL, duration_scale=scale)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from teo_motion.trajectory.joint_motion import JointMotion, JointMotionBuilder, take
 from teo_motion.trajectory.ruckig_segment import Bounds, RuckigSolver, State
-from teo_motion.trajectory.splice import Splicer, StandPoint, position_at, rest_after, shifted
+from teo_motion.trajectory.splice import Splicer, StandPoint, position_at, shifted
 
 BOUNDS = Bounds(
     lower=np.array([-0.5]),
@@ -42,7 +42,7 @@ def jumps(motion: JointMotion) -> float:
     return max(float(np.abs(end[:-1] - begin[1:]).max()) for end, begin in zip(ends, begins, strict=True))
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(
     begin=st.floats(0.0, 3.0),
     length=st.floats(1.5, 2.0),
@@ -84,10 +84,3 @@ def test_a_turned_part_jumps_at_its_ends_and_a_splice_bridges_that() -> None:
     bridged = bridged and splicer.spliced(bridged, 3.0, [], 4.0)
     assert bridged is not None and jumps(bridged) < 1e-6
     assert bridged.extremes().greatest == pytest.approx(0.4, abs=1e-6)
-
-
-def test_when_a_joint_rests_again_is_found() -> None:
-    motion = there_and_back()
-    assert rest_after(motion, 0.3) == pytest.approx(0.3)
-    assert rest_after(motion, 1.5) == pytest.approx(2.0)
-    assert rest_after(motion, 3.5) == pytest.approx(4.0)
