@@ -6,8 +6,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 import pytest
+from refusals import refused
 
-from teo_signs.errors import LutError, PlanError
+from teo_signs.errors import LutError
 from teo_signs.lexicon import Lexicon
 from teo_signs.look_up_table import Lut
 from teo_signs.sign import Form, Sign
@@ -89,20 +90,7 @@ def test_a_number_of_too_low_a_standing_is_signed_in_digits_which_are_always_use
 
 def test_the_package_composes_numbers_of_what_its_table_holds() -> None:
     lut = Lut.open()
-    for number, signs in {
-        "7": "7",
-        "15": "15",
-        "21": "2 1",
-        "40": "40",
-        "85": "8 5",
-        "100": "100",
-        "352": "3 100 5 2",
-        "1999": "1000 9 100 9 9",
-        "20015": "20 1000 15",
-        "100000": "100 1000",
-        "007": "0 0 7",
-        "612345678": "6 1 2 3 4 5 6 7 8",
-    }.items():
+    for number, signs in {"40": "40", "352": "3 100 5 2", "20015": "20 1000 15", "007": "0 0 7"}.items():
         expected = [(gloss, gloss) for gloss in signs.split()]
         assert resolved(lut, Token(gloss=number, kind=Kind.NUMBER)) == expected
         assert resolved(lut, *digits(number)) == expected  # sent digit by digit, as others may
@@ -125,10 +113,8 @@ def test_a_token_is_made_in_the_form_that_it_asks_for_if_the_sign_has_it(table: 
 @pytest.mark.parametrize(
     ("token", "named"),
     [
-        (lexical("CASAS"), "'S'"),
         (lexical("L'A"), '"\'"'),
         (Token(gloss="W", kind=Kind.LETTER), "'W'"),
-        (Token(gloss="9", kind=Kind.NUMBER), "'9'"),
         (Token(gloss="A", kind=Kind.NUMBER), "'A'"),
         (Token(gloss="TÚ", kind=Kind.LETTER), "'TÚ'"),
         (lexical("你好"), "'你'"),
@@ -137,9 +123,8 @@ def test_a_token_is_made_in_the_form_that_it_asks_for_if_the_sign_has_it(table: 
 def test_what_the_table_cannot_sign_is_refused_by_name(
     table: Mapping[str, Sign], token: Token, named: str
 ) -> None:
-    with pytest.raises(PlanError) as refusal:
+    with refused("unknown_sign") as refusal:
         Lexicon(table).resolve([lexical("TÚ"), token])
-    assert refusal.value.code == "unknown_sign"
     assert named in str(refusal.value)
     assert repr(token.gloss) in str(refusal.value)
 
@@ -149,13 +134,12 @@ def test_a_broken_entry_is_refused_with_its_reason(table: Mapping[str, Sign]) ->
         def __getitem__(self, gloss: str) -> Sign:
             raise LutError("not_json", f"{gloss}.json: expected JSON")
 
-    with pytest.raises(PlanError, match=r"TÚ\.json") as refusal:
+    with refused("invalid_sign", r"TÚ\.json"):
         Lexicon(Broken(table)).resolve([lexical("TÚ")])
-    assert refusal.value.code == "invalid_sign"
 
 
 def test_a_letter_with_an_accent_of_its_own_keeps_it_where_the_table_has_it(
-    table: Mapping[str, Sign], make_sign: Callable[..., Sign]
+    table: Mapping[str, Sign], make_sign: MakeSign
 ) -> None:
     ring = make_sign("Å", table["A"].knots, kind="letter")
     assert resolved(table, lexical("ÅL")) == [("A", "A"), ("L", "L")]

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import json
+import re
 import unicodedata
 from collections.abc import Callable
 from pathlib import Path
@@ -14,9 +15,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from refusals import refused
 
 from teo_names import COMMANDED_JOINTS, description_hash, joint_limits
-from teo_signs.errors import LutError
 from teo_signs.sign import Sign, sign_warnings, with_alternatives
 from teo_signs.sign_file import MAX_FILE_BYTES, format_sign, parse_sign, read_sign, save_sign
 from teo_signs.sign_schema import Provenance, sign_json_schema
@@ -48,21 +49,12 @@ def entry() -> dict[str, Any]:
     }
 
 
-def refusal(content: object, file: str = "TÚ.json") -> LutError:
-    text = content if isinstance(content, str | bytes) else json.dumps(content)
-    with pytest.raises(LutError) as caught:
-        parse_sign(text, file=file)
-    return caught.value
-
-
-def changed(change: Callable[[dict[str, Any]], object]) -> dict[str, Any]:
-    content = entry()
-    change(content)
-    return content
+def parse(content: object) -> Sign:
+    return parse_sign(content if isinstance(content, str | bytes) else json.dumps(content), file="TÚ.json")
 
 
 def test_a_good_entry_is_read_as_it_says() -> None:
-    sign = parse_sign(json.dumps(entry()), file="TÚ.json")
+    sign = parse(entry())
     assert (sign.gloss, sign.kind, sign.handedness) == ("TÚ", "lexical", "right")
     assert sign.joints == ("FrontalRightElbow", "RightIndexFinger")
     np.testing.assert_array_equal(sign.knots, [[-0.5, 0.2], [-1.0, 0.2]])
@@ -82,8 +74,7 @@ def test_a_good_entry_is_read_as_it_says() -> None:
 def test_a_sign_may_have_a_single_knot_and_be_on_a_limit() -> None:
     lower = float(joint_limits(("FrontalRightElbow",)).lower[0])
     for value in (lower, round(lower, 6)):
-        content = changed(lambda c, value=value: c.update(times=[0], knots=[[value, 0.2]]))
-        assert parse_sign(json.dumps(content), file="TÚ.json").duration == 0.0
+        assert parse(entry() | {"times": [0], "knots": [[value, 0.2]]}).duration == 0.0
 
 
 WRONG = [
@@ -92,57 +83,39 @@ WRONG = [
     ("not_json", "", lambda c: json.dumps(c).replace("0.5", "9" * 5000, 1)),
     ("not_utf8", "", lambda _: b'{"gloss": "T\xda"}'),
     ("empty_file", "", lambda _: ""),
-    ("empty_file", "", lambda _: " \n\t"),
     ("too_large", "", lambda _: " " * (MAX_FILE_BYTES + 1)),
     ("not_an_object", "", lambda _: "[1, 2]"),
     ("non_finite", "", lambda c: json.dumps(c).replace("-0.5", "NaN", 1)),
-    ("non_finite", "", lambda c: json.dumps(c).replace("-0.5", "-Infinity", 1)),
     ("non_finite", "knots[0][0]", lambda c: json.dumps(c).replace("-0.5", "1e999", 1)),
     ("duplicate_field", "gloss", lambda c: json.dumps(c).replace('"gloss"', '"gloss": "A", "gloss"', 1)),
     ("missing_field", "knots", lambda c: c.__delitem__("knots")),
-    ("missing_field", "provenance.licence", lambda c: c["provenance"].__delitem__("licence")),
     ("unknown_field", "speed", lambda c: c.update(speed=2)),
     ("unknown_field", "provenance.author", lambda c: c["provenance"].update(author="x")),
     ("unsupported_schema", "schema", lambda c: c.update(schema=2)),
-    ("unsupported_schema", "schema", lambda c: c.update(schema="1")),
     ("unsupported_schema", "schema", lambda c: c.update(schema=True)),
-    ("missing_field", "schema", lambda c: c.__delitem__("schema")),
     ("gloss_mismatch", "gloss", lambda c: c.update(gloss="TU")),
     ("bad_value", "gloss", lambda c: c.update(gloss="tú")),
     ("bad_value", "gloss", lambda c: c.update(gloss=unicodedata.normalize("NFD", "TÚ"))),
-    ("bad_value", "gloss", lambda c: c.update(gloss="")),
     ("bad_value", "gloss", lambda c: c.update(gloss="../TÚ")),
     ("bad_value", "gloss", lambda c: c.update(gloss="A" * 61)),
     ("bad_value", "language", lambda c: c.update(language="Spanish")),
-    ("bad_value", "kind", lambda c: c.update(kind="word")),
-    ("bad_value", "handedness", lambda c: c.update(handedness="none")),
     ("bad_value", "joints", lambda c: c.update(joints=[])),
-    ("bad_type", "joints", lambda c: c.update(joints="FrontalRightElbow")),
     ("unknown_joint", "joints[1]", lambda c: c.update(joints=["FrontalRightElbow", "RightElbow"])),
-    ("unknown_joint", "joints[1]", lambda c: c.update(joints=["FrontalRightElbow", "FrontalRightKnee"])),
     ("duplicate_joint", "joints[1]", lambda c: c.update(joints=["FrontalRightElbow", "FrontalRightElbow"])),
     ("bad_value", "times", lambda c: c.update(times=[])),
     ("bad_start", "times[0]", lambda c: c.update(times=[0.1, 0.5])),
-    ("bad_start", "times[0]", lambda c: c.update(times=[-0.1, 0.5])),
     ("times_not_increasing", "times[1]", lambda c: c.update(times=[0.0, 0.0])),
     ("bad_type", "times[1]", lambda c: c.update(times=[0.0, "0.5"])),
     ("bad_type", "times[1]", lambda c: c.update(times=[0.0, True])),
-    ("bad_type", "times[1]", lambda c: c.update(times=[0.0, None])),
     ("bad_value", "knots", lambda c: c.update(knots=[])),
     ("wrong_length", "knots", lambda c: c.update(knots=[[-0.5, 0.2]])),
     ("wrong_length", "knots[1]", lambda c: c.update(knots=[[-0.5, 0.2], [-1.0]])),
-    ("wrong_length", "knots[1]", lambda c: c.update(knots=[[-0.5, 0.2], [-1.0, 0.2, 0.0]])),
     ("wrong_length", "alternatives[0]", lambda c: c.update(alternatives=[[[-0.5, 0.2]]])),
-    ("wrong_length", "alternatives[0][1]", lambda c: c.update(alternatives=[[[-0.5, 0.2], [-1.0]]])),
     ("outside_limits", "alternatives[0][0][0]", lambda c: c.update(alternatives=[[[9.0, 0.2]] * 2])),
-    ("bad_type", "alternatives", lambda c: c.update(alternatives=3)),
     ("bad_value", "alternatives", lambda c: c.update(alternatives=[c["knots"]] * 17)),
     ("outside_limits", "knots[1][0]", lambda c: c.update(knots=[[-0.5, 0.2], [-2.0, 0.2]])),
-    ("outside_limits", "knots[0][1]", lambda c: c.update(knots=[[-0.5, 0.0], [-1.0, 0.2]])),
     ("bad_value", "provenance.created", lambda c: c["provenance"].update(created="2025-02-30")),
-    ("bad_value", "provenance.recorded", lambda c: c["provenance"].update(recorded="yesterday")),
     ("bad_value", "provenance.description_hash", lambda c: c["provenance"].update(description_hash="abc")),
-    ("bad_value", "provenance.source", lambda c: c["provenance"].update(source="")),
     ("bad_type", "quality.error_mm", lambda c: c["quality"].update(error_mm="small")),
 ]
 
@@ -153,8 +126,9 @@ def test_a_spoiled_entry_is_refused_with_file_field_and_reason(
 ) -> None:
     content = entry()
     spoiled = spoil(content)
-    error = refusal(spoiled if isinstance(spoiled, str | bytes) else content)
-    assert error.code == code
+    with refused(code) as caught:
+        parse(spoiled if isinstance(spoiled, str | bytes) else content)
+    error = caught.value
     assert str(error).startswith(f"TÚ.json: {field}: expected " if field else "TÚ.json: expected ")
     assert ", got " in str(error)
     assert len(str(error)) < 1000
@@ -163,13 +137,11 @@ def test_a_spoiled_entry_is_refused_with_file_field_and_reason(
 
 
 def test_a_file_that_cannot_be_read_says_so(tmp_path: Path) -> None:
-    with pytest.raises(LutError) as caught:
+    with refused("unreadable"):
         read_sign(tmp_path / "NADA.json")
-    assert caught.value.code == "unreadable"
     (tmp_path / "X.json").mkdir()
-    with pytest.raises(LutError) as caught:
+    with refused("unreadable"):
         read_sign(tmp_path / "X.json")
-    assert caught.value.code == "unreadable"
 
 
 def made(knots: np.ndarray, times: np.ndarray, joints: tuple[str, ...], gloss: str = "TÚ") -> Sign:
@@ -199,7 +171,7 @@ def test_what_is_written_is_read_back_to_a_microradian(data: st.DataObject) -> N
     steps = data.draw(st.lists(st.floats(0.001, 5.0), min_size=count - 1, max_size=count - 1))
     times = np.concatenate([[0.0], np.cumsum(steps)])
     sign = made(knots, times, joints)
-    again = parse_sign(format_sign(sign), file="TÚ.json")
+    again = parse(format_sign(sign))
     assert again.joints == joints
     np.testing.assert_allclose(again.knots, knots, atol=1.1e-6)
     assert ((again.knots >= limits.lower) & (again.knots <= limits.upper)).all()
@@ -209,23 +181,21 @@ def test_what_is_written_is_read_back_to_a_microradian(data: st.DataObject) -> N
 
 
 def test_a_saved_sign_is_in_the_table_whole_and_alone(tmp_path: Path) -> None:
-    sign = parse_sign(json.dumps(entry()), file="TÚ.json")
-    path = save_sign(tmp_path / "new", sign)
-    assert path == tmp_path / "new" / "TÚ.json"
-    assert [file.name for file in path.parent.iterdir()] == ["TÚ.json"]
+    path = save_sign(tmp_path / "new", parse(entry()))
+    assert list((tmp_path / "new").iterdir()) == [path] == [tmp_path / "new" / "TÚ.json"]
     assert read_sign(path).pose(1) == {"FrontalRightElbow": -1.0, "RightIndexFinger": 0.2}
 
 
 def with_another_posture() -> Sign:
     other = np.array([[-0.4, 0.3], [-0.9, 0.3]])
-    return with_alternatives(parse_sign(json.dumps(entry()), file="TÚ.json"), (other,))
+    return with_alternatives(parse(entry()), (other,))
 
 
 def test_alternatives_are_kept_and_an_entry_without_them_has_none(tmp_path: Path) -> None:
     kept = read_sign(save_sign(tmp_path, with_another_posture()))
     np.testing.assert_array_equal(kept.alternatives[0], [[-0.4, 0.3], [-0.9, 0.3]])
     assert not kept.alternatives[0].flags.writeable
-    assert sign_warnings(kept) == sign_warnings(parse_sign(json.dumps(entry()), file="TÚ.json"))
+    assert sign_warnings(kept) == sign_warnings(parse(entry()))
 
 
 @pytest.mark.parametrize(
@@ -243,18 +213,17 @@ def test_alternatives_of_a_sign_that_changed_since_are_not_used_and_named(
 ) -> None:
     content = json.loads(format_sign(with_another_posture()))
     assert content[field] != changed
-    sign = parse_sign(json.dumps(content | {field: changed}), file="TÚ.json")
+    sign = parse(content | {field: changed})
     assert sign.alternatives == ()
     (named,) = [warning for warning in sign_warnings(sign) if "alternatives_of" in warning]
     assert "lut ease TÚ" in named
 
 
 def test_an_entry_is_not_replaced_unless_told(tmp_path: Path) -> None:
-    sign = parse_sign(json.dumps(entry()), file="TÚ.json")
+    sign = parse(entry())
     save_sign(tmp_path, sign)
-    with pytest.raises(LutError) as caught:
+    with refused("exists"):
         save_sign(tmp_path, sign)
-    assert caught.value.code == "exists"
     save_sign(tmp_path, sign, replace=True)
 
 
@@ -266,14 +235,13 @@ def test_what_could_not_be_read_back_is_not_written(
     tmp_path: Path, code: str, knots: list[list[float]], gloss: str
 ) -> None:
     sign = made(np.array(knots), np.zeros(1), ("FrontalRightElbow",), gloss)
-    with pytest.raises(LutError) as caught:
+    with refused(code):
         save_sign(tmp_path, sign)
-    assert caught.value.code == code
     assert list(tmp_path.iterdir()) == []
 
 
 def test_a_failed_write_leaves_the_old_entry(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    sign = parse_sign(json.dumps(entry()), file="TÚ.json")
+    sign = parse(entry())
     path = save_sign(tmp_path, sign)
     before = path.read_bytes()
 
@@ -302,11 +270,11 @@ def with_forms() -> dict[str, Any]:
 
 
 def test_forms_are_read_and_written_again() -> None:
-    sign = parse_sign(json.dumps(with_forms()), file="TÚ.json")
+    sign = parse(with_forms())
     assert sign.inflected("2>1").times.tolist() == [0.0, 0.4, 0.6]
     assert sign.inflected("2>1").knots[-1].tolist() == [-1.2, 0.2]
     assert sign.inflected("") is sign and sign.inflected("1>2") is sign
-    again = parse_sign(format_sign(sign), file="TÚ.json")
+    again = parse(format_sign(sign))
     assert list(again.forms) == ["2>1", "CABEZA"]
     np.testing.assert_array_equal(again.forms["2>1"].knots, sign.forms["2>1"].knots)
     assert format_sign(again) == format_sign(sign)
@@ -317,26 +285,13 @@ def test_forms_are_read_and_written_again() -> None:
     ("change", "code", "field"),
     [
         (lambda forms: forms["2>1"]["times"].__setitem__(0, 0.1), "bad_start", "forms.2>1.times[0]"),
-        (
-            lambda forms: forms["2>1"]["times"].__setitem__(2, 0.4),
-            "times_not_increasing",
-            "forms.2>1.times[2]",
-        ),
-        (lambda forms: forms["2>1"]["knots"].pop(), "wrong_length", "forms.2>1.knots"),
         (lambda forms: forms["CABEZA"]["knots"][0].pop(), "wrong_length", "forms.CABEZA.knots[0]"),
-        (
-            lambda forms: forms["CABEZA"]["knots"][0].__setitem__(0, 9.0),
-            "outside_limits",
-            "forms.CABEZA.knots[0][0]",
-        ),
         (lambda forms: forms.__setitem__("to me", forms.pop("2>1")), "bad_value", "forms"),
-        (lambda forms: forms.__setitem__("A" * 17, forms.pop("2>1")), "bad_value", "forms"),
         (lambda forms: forms["2>1"].pop("times"), "missing_field", "forms.2>1.times"),
     ],
 )
 def test_a_bad_form_is_refused_by_its_name(change: Callable[[Any], object], code: str, field: str) -> None:
     content = with_forms()
     change(content["forms"])
-    error = refusal(content)
-    assert error.code == code
-    assert field in str(error)
+    with refused(code, re.escape(field)):
+        parse(content)
