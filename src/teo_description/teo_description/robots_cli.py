@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NoReturn
 
+import msgspec
 import numpy as np
 import typer
 from rich.console import Console
@@ -71,9 +72,14 @@ def _check(
         Path | None, typer.Option(help="Folder for pictures: each axis of the hand, home and ready.")
     ] = None,
 ) -> None:
-    """Walk through a robot: axes, mirror symmetry, limits, hands, touch and reach; status 1 if one fails."""
+    """Walk through a robot: its frames, axes, mirror symmetry, limits, hands, touch, shapes and reach.
+
+    Exit status: 0 it is fit to sign, 1 it is not.
+    """
     try:
         robot = Robot.load(name)
+        for line in _frames(robot):
+            _console.print(line, highlight=False, markup=False, soft_wrap=True)
         failed = []
         for finding in _findings(robot):
             _console.print(
@@ -95,9 +101,33 @@ def _check(
         raise typer.Exit(1)
 
 
+def _frames(robot: Robot) -> Iterator[str]:
+    """Where the frames are that the file names, at home."""
+    hand, collision = robot.humanoid.file.hand, robot.humanoid.file.collision
+    parts = msgspec.structs.asdict(collision.right_arm)
+    asked = {
+        "hand.palm": (hand.palm,),
+        **{f"hand.fingers.{name}": frames for name, frames in hand.fingers.items()},
+        "hand.thumb": hand.thumb,
+        **{f"collision.right_arm.{part}": links for part, links in parts.items()},
+        "collision.torso": collision.torso,
+    }
+    yield "frames at home: place in base_link [m], and where their x and z point"
+    q = robot.configuration({})
+    for field, names in asked.items():
+        for name, pose in zip(names, robot.placements(q, names), strict=True):
+            place, x, z = (
+                ", ".join(f"{value:.{digits}f}" for value in pose[:3, column])
+                for column, digits in ((3, 3), (0, 2), (2, 2))
+            )
+            yield f"{field:29} {name:28} at ({place}), x ({x}), z ({z})"
+
+
 def _findings(robot: Robot) -> Iterator[Finding]:
-    checks = (frame_checks, symmetry_checks, limit_checks, hand_checks, collision_checks, reach_checks)
-    for check in checks:
+    from teo_description.shape_checks import shape_checks  # here: a second that listing does without
+
+    checks = (frame_checks, symmetry_checks, limit_checks, hand_checks, collision_checks, shape_checks)
+    for check in (*checks, reach_checks):
         yield from check(robot)
 
 

@@ -7,32 +7,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from teo_names import HOME, mirrored_name
-
-MIRROR = np.diag([1.0, -1.0, 1.0, 1.0])
 FINGERS = ("Thumb", "Index", "Middle", "Ring", "Pinky")
-
-
-def mirrored(positions):
-    """The pose mirrored about y = 0: turns about x and z change sense; hand axes are mirrored already."""
-    other = {}
-    for name, value in positions.items():
-        hand = "Hand" in name or "Finger" in name
-        keeps = hand or name.startswith("Frontal")
-        other[mirrored_name(name)] = value if keeps else -value
-    return other
-
-
-def test_mirrored_joint_values_give_the_mirror_image(robot, random_positions):
-    assert mirrored(HOME) == dict(HOME)
-    frames = ["right_palm", "RightHandAbductor_link", "right_sole"]
-    frames += [f"Right{finger}FingerTip" for finger in FINGERS]
-    others = list(map(mirrored_name, frames))
-    for _ in range(50):
-        positions = random_positions()
-        here = robot.placements(robot.configuration(positions), frames)
-        there = robot.placements(robot.configuration(mirrored(positions)), others)
-        np.testing.assert_allclose(there, MIRROR @ here @ MIRROR, rtol=0, atol=1e-9)
 
 
 @pytest.mark.parametrize(("side", "medial"), [("Left", -1.0), ("Right", 1.0)])

@@ -53,23 +53,16 @@ def test_a_plan_becomes_a_film_and_a_strip(render, plan, tmp_path):
     [
         ((), 2, "--out"),
         (("--pose", "Codo=1", "--out", "x.png"), 1, "Codo"),
-        (("--pose", "AxialNeck=2", "--out", "x.png"), 1, "-1.0472 .. 1.0472"),
-        (("--pose", "AxialNeck=nan", "--out", "x.png"), 1, "NaN"),
         (("--out", "x.png", "--camera", "side"), 1, "front, hand, sign, sign_hand, full"),
         (("--out", "x.png", "--size", "big"), 2, "640x480"),
-        (("--out", "x.png", "--size", "3x3"), 1, "16 to 4096"),
         (("--out", "nowhere/x.png"), 1, "nowhere"),
         (("--csv", "plan.csv"), 2, "--mp4 or --strip"),
-        (("--csv", "plan.csv", "--mp4", "nowhere/x.mp4"), 1, "nowhere"),
-        (("--csv", "plan.csv", "--mp4", "x.mp4", "--fps", "0"), 1, "frames per second"),
         (("--csv", "plan.csv", "--out", "x.png"), 2, "either"),
         (("--csv", "none.csv", "--mp4", "x.mp4"), 1, "none.csv"),
-        (("--csv", "empty.csv", "--mp4", "x.mp4"), 1, "at least one row"),
     ],
 )
 def test_mistakes_end_with_a_sentence_and_no_picture(render, plan, monkeypatch, arguments, code, says):
     monkeypatch.chdir(plan.parent)
-    (plan.parent / "empty.csv").write_text("")
     ended, said = render(*arguments)
     assert ended == code
     assert says in said.replace("\n", " ")

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import functools
 from dataclasses import replace
 from itertools import pairwise
 
@@ -22,7 +23,7 @@ from teo_description.pictures.rendering import (
 )
 from teo_description.pictures.visual_parts import from_file
 from teo_description.robot import Robot
-from teo_names import HOME, LEFT_ARM, RIGHT_ARM
+from teo_names import HOME, RIGHT_ARM
 
 CAMERAS = cameras(load_humanoid("teo"))
 
@@ -48,11 +49,16 @@ def pixel(camera, point):
     return round(width / 2 + scale * (ray @ right)), round(height / 2 - scale * (ray @ up))
 
 
-def figure(image):
-    """Which pixels are not background, which is what a camera that looks away from TEO sees."""
-    height, width = image.shape[:2]
+@functools.cache
+def background(height, width):
+    """What a camera that looks away from TEO sees."""
     away = Camera(position=(5, 0, 0), target=(9, 0, 0), field_of_view=0.5, size=(width, height))
-    return np.abs(image.astype(int) - render_pose({}, away).astype(int)).sum(axis=2) > 6
+    return render_pose({}, away).astype(int)
+
+
+def figure(image):
+    """Which pixels are not background."""
+    return np.abs(image.astype(int) - background(*image.shape[:2])).sum(axis=2) > 6
 
 
 def test_a_camera_knows_where_its_picture_shows_a_point():
@@ -126,13 +132,6 @@ def test_right_hand_is_on_the_left_of_the_picture_and_the_face_looks_at_the_view
     behind = replace(CAMERAS["front"], position=(-2.3, 0.0, 0.55))
     x, y = pixel(behind, (-0.1, 0.0, 0.72))
     assert renderer.render(HOME, behind)[y, x].mean() > 90  # no face on the back of the head
-
-
-def test_a_mirrored_pose_has_the_mirrored_outline(renderer):
-    left = dict(zip(LEFT_ARM, np.radians([-75.4, -12.4, -9.6, -83.5, -86.2, 2.3]), strict=True))
-    seen = figure(renderer.render(RAISED))
-    other = figure(renderer.render(left))[:, ::-1]
-    assert (seen ^ other).mean() < 0.01
 
 
 def test_hand_view_follows_the_hand(renderer):

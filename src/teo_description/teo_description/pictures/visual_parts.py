@@ -171,6 +171,8 @@ _GREY = (0.7, 0.7, 0.7, 1.0)
 class Part(NamedTuple):
     """A coloured surface that a joint moves."""
 
+    link: str
+    """The link that it belongs to."""
     joint: int
     """Pinocchio's index of it."""
     mesh: Mesh
@@ -216,9 +218,10 @@ def _shape_parts(
 ) -> Iterator[Part]:
     geometry = pin.buildGeomFromUrdfString(robot.model, urdf, kind)
     for item in geometry.geometryObjects:
-        if links is None or robot.model.frames[item.parentFrame].name in links:
+        link = robot.model.frames[item.parentFrame].name
+        if links is None or link in links:
             colour = item.meshColor[:3] if kind == pin.GeometryType.VISUAL else _GREY[:3]
-            yield Part(item.parentJoint, _shape(item), tuple(colour))
+            yield Part(link, item.parentJoint, _shape(item), tuple(colour))
 
 
 def _shape(item: Any) -> Mesh:
@@ -248,6 +251,7 @@ def _mesh_part(robot: Robot, link: str, visual: ET.Element, path: Path) -> Part:
     colour = visual.find("material/color")
     rgba = _GREY if colour is None else _numbers(colour.attrib["rgba"])
     return Part(
+        link,
         frame.parentJoint,
         moved(surface, placement.rotation, placement.translation),
         (float(rgba[0]), float(rgba[1]), float(rgba[2])),
