@@ -41,7 +41,7 @@ LEG_JOINTS = [
     "Sagittal{}Ankle",
 ]
 
-POSES = 500
+POSES = 100
 TOLERANCE = 1e-9  # [m]
 
 
