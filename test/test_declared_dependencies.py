@@ -17,61 +17,21 @@ from package_folders import FOLDERS, ROOT, SHELVES
 
 PACKAGES = sorted(FOLDERS)
 
-# Import name: rosdep's key (None: it has none for a package of Ubuntu, pip installs it) and PyPI's name
-# (None: it comes with ROS).
 ROS = (
     "ament_index_python", "builtin_interfaces", "diagnostic_msgs", "geometry_msgs", "launch", "launch_ros",
     "lifecycle_msgs", "rcl_interfaces", "rclpy", "rosgraph_msgs", "rosidl_parser", "sensor_msgs", "std_msgs",
     "std_srvs", "trajectory_msgs", "visualization_msgs",
 )  # fmt: skip
-DECLARED_AS: dict[str, tuple[str | None, str | None]] = {
-    **{name: (name, None) for name in (*ROS, *PACKAGES, "teo_sign_msgs", "control_msgs")},
-    "PIL": ("python3-pil", "pillow"),
-    "aiohttp": ("python3-aiohttp", "aiohttp"),
-    "argcomplete": ("python3-argcomplete", "argcomplete"),
-    "anny": (None, "anny"),
-    "av": (None, "av"),
-    "casadi": (None, "casadi"),
-    "coal": ("coal", "coal"),
-    "cv2": ("python3-opencv", "opencv-python-headless"),
-    "distributed": (None, "distributed"),
-    "dtaidistance": (None, "dtaidistance"),
-    "embreex": (None, "embreex"),
-    "fast_simplification": (None, "fast-simplification"),
-    "flatbuffers": ("python3-flatbuffers", "flatbuffers"),
-    "fontTools": ("python3-fonttools", "fonttools"),
-    "google": ("python3-protobuf", "protobuf"),
-    "lazy_loader": (None, "lazy-loader"),
-    "lz4": (None, "lz4"),
-    "matplotlib": ("python3-matplotlib", "matplotlib"),
-    "mcap": (None, "mcap"),
-    "mediapipe": (None, "mediapipe"),
-    "mujoco": (None, "mujoco"),
-    "msgspec": (None, "msgspec"),
-    "num2words": (None, "num2words"),
-    "numpy": ("python3-numpy", "numpy"),
-    "pinocchio": ("pinocchio", "pin"),
-    "pose_format": (None, "pose-format"),
-    "pydantic": ("python3-pydantic", "pydantic"),
-    "pydantic_core": ("python3-pydantic", "pydantic"),
-    "rich": ("python3-rich", "rich"),
-    "rosbags": (None, "rosbags"),
-    "ruckig": (None, "ruckig"),
-    "sacrebleu": (None, "sacrebleu"),
-    "segno": ("python3-segno", "segno"),
-    "signwriting": (None, "signwriting"),
-    "safetensors": (None, "safetensors"),
-    "scipy": ("python3-scipy", "scipy"),
-    "simplemma": (None, "simplemma"),
-    "spoken_to_signed": (None, "spoken-to-signed"),
-    "text_to_num": (None, "text2num"),
-    "threadpoolctl": (None, "threadpoolctl"),
-    "torch": (None, "torch"),
-    "trimesh": (None, "trimesh"),
-    "typer": ("python3-typer", "typer"),
-    "yaml": ("python3-yaml", "PyYAML"),
-    "zstandard": (None, "zstandard"),
-}
+# Names on PyPI that are not those of the import with hyphens.
+PYPI = {
+    "PIL": "pillow", "cv2": "opencv-python-headless", "fontTools": "fonttools", "google": "protobuf",
+    "pinocchio": "pin", "pydantic_core": "pydantic", "text_to_num": "text2num", "yaml": "PyYAML",
+}  # fmt: skip
+# Keys of rosdep that are not `python3-` and the name of the import.
+KEYS = {
+    "PIL": "python3-pil", "cv2": "python3-opencv", "fontTools": "python3-fonttools",
+    "google": "python3-protobuf", "pinocchio": "pinocchio", "pydantic_core": "python3-pydantic",
+}  # fmt: skip
 # The keys of rosdep/python.yaml that give a package on Ubuntu 24.04, and packages of jazzy/distribution.yaml,
 # as far as some package.xml names them: github.com/ros/rosdistro, looked up in a copy of 2025 (commit
 # 30d139d7 of its fork InvincibleRMC/rosdistro).
@@ -98,6 +58,14 @@ NOT_IMPORTED = {
 }
 # zstandard and lz4 come with mcap and rosbags; only the studio calls what draws plots.
 BROUGHT = {"lz4", "matplotlib", "zstandard"}
+
+
+def declared_as(name: str) -> tuple[str | None, str | None]:
+    """An import's rosdep key (None: rosdep has none, pip installs it) and PyPI name (None: ROS brings it)."""
+    if name in (*ROS, *PACKAGES, "teo_sign_msgs", "control_msgs"):
+        return name, None
+    key = KEYS.get(name, f"python3-{name}")
+    return key if key in ROSDEP_KEYS | JAZZY else None, PYPI.get(name, name.replace("_", "-"))
 
 
 def imports_of(package: str) -> dict[str, str]:
@@ -153,9 +121,7 @@ def pypi_names(package: str) -> set[str]:
 @pytest.mark.parametrize("package", PACKAGES)
 def test_every_import_is_declared_and_nothing_else(package: str) -> None:
     imports, keys, names = imports_of(package), rosdep_keys(package), pypi_names(package)
-    unknown = {top: file for top, file in imports.items() if top not in DECLARED_AS}
-    assert not unknown, "give DECLARED_AS its rosdep key and PyPI name"
-    used = [(*DECLARED_AS[top], file) for top, file in imports.items()]
+    used = [(*declared_as(top), file) for top, file in imports.items()]
     missing = [f"package.xml: {key} ({file})" for key, _, file in used if key not in keys | {None}]
     missing += [f"setup.py: {name} ({file})" for _, name, file in used if name not in names | {None}]
     assert not missing, "\n".join(missing)
