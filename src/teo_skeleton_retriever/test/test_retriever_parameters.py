@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 import pytest
+from refusals import refused
 
-from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
 
 
@@ -23,6 +23,5 @@ from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
     ],
 )
 def test_what_is_no_value_of_a_parameter_is_refused(changes: dict[str, object], code: str) -> None:
-    with pytest.raises(RetrieverError) as caught:
+    with refused(code):
         RetrieverParameters(**changes)  # type: ignore[arg-type]
-    assert caught.value.code == code

@@ -12,6 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
+from refusals import refused
 
 from teo_skeleton_retriever.camera.image_decoding import (
     COLOR_ENCODINGS,
@@ -32,23 +33,20 @@ def decoded(data: bytes, encoding: str, step: int = 0) -> np.ndarray:
 
 
 @pytest.mark.parametrize(
-    ("encoding", "pixels"),
+    ("encoding", "pixels", "expected"),
     [
-        ("rgb8", RGB),
-        ("bgr8", RGB[:, :, ::-1]),
-        ("8UC3", RGB[:, :, ::-1]),
-        ("rgba8", np.dstack([RGB, GREY])),
-        ("bgra8", np.dstack([RGB[:, :, ::-1], GREY])),
-        ("8UC4", np.dstack([RGB[:, :, ::-1], GREY])),
+        ("rgb8", RGB, RGB),
+        ("bgr8", RGB[:, :, ::-1], RGB),
+        ("8UC3", RGB[:, :, ::-1], RGB),
+        ("rgba8", np.dstack([RGB, GREY]), RGB),
+        ("bgra8", np.dstack([RGB[:, :, ::-1], GREY]), RGB),
+        ("8UC4", np.dstack([RGB[:, :, ::-1], GREY]), RGB),
+        ("mono8", GREY, np.dstack([GREY] * 3)),
+        ("8UC1", GREY, np.dstack([GREY] * 3)),
     ],
 )
-def test_every_order_of_channels_becomes_rgb(encoding, pixels):
-    np.testing.assert_array_equal(decoded(pixels.tobytes(), encoding), RGB)
-
-
-@pytest.mark.parametrize("encoding", ["mono8", "8UC1"])
-def test_grey_becomes_three_equal_channels(encoding):
-    np.testing.assert_array_equal(decoded(GREY.tobytes(), encoding), np.dstack([GREY] * 3))
+def test_every_order_of_channels_becomes_rgb(encoding, pixels, expected):
+    np.testing.assert_array_equal(decoded(pixels.tobytes(), encoding), expected)
 
 
 @pytest.mark.parametrize(
@@ -100,34 +98,29 @@ def test_padding_of_rows_does_not_matter(padding, encoding):
 )
 def test_what_is_no_image_is_refused_with_a_reason(code, fields):
     good = {"data": bytes(6 * 24), "width": 8, "height": 6, "encoding": "rgb8"}
-    with pytest.raises(RetrieverError) as refused:
+    with refused(code, "expected"):
         decode_color(**(good | fields))
-    assert refused.value.code == code
-    assert "expected" in refused.value.sentence
 
 
-def test_whole_millimetres_become_metres_and_zero_unknown() -> None:
-    data = np.array([[0, 1], [1500, 65535]], dtype="<u2")
-    depth = decode_depth(data.tobytes(), width=2, height=2, encoding="16UC1")
-    np.testing.assert_allclose(depth, [[math.nan, 0.001], [1.5, 65.535]], rtol=1e-6)
+MILLIMETRES, METRES = [[0, 1, 1500], [1500, 65535, 2]], [[1.25, math.inf, 0.0], [-1.0, math.nan, 2.0]]
+
+
+@pytest.mark.parametrize(
+    ("encoding", "kind", "values", "expected"),
+    [
+        ("16UC1", "u2", MILLIMETRES, [[math.nan, 0.001, 1.5], [1.5, 65.535, 0.002]]),
+        ("32FC1", "f4", METRES, [[1.25, math.nan, math.nan], [math.nan, math.nan, 2.0]]),
+    ],
+)
+@pytest.mark.parametrize(("order", "padding"), [("<", b""), (">", b"\xff" * 4)])
+def test_depths_of_any_byte_order_and_padding_become_metres_and_what_is_none_unknown(
+    encoding, kind, values, expected, order, padding
+):
+    rows = np.array(values, dtype=order + kind)
+    data, step = b"".join(row.tobytes() + padding for row in rows), rows.strides[0] + len(padding)
+    depth = decode_depth(data, width=3, height=2, encoding=encoding, step=step, big_endian=order == ">")
+    np.testing.assert_allclose(depth, expected, rtol=1e-6)
     assert depth.dtype == np.float32
-
-
-def test_metres_stay_and_what_is_no_distance_becomes_unknown() -> None:
-    data = np.array([[1.25, math.nan, math.inf, -math.inf, 0.0, -1.0]], dtype="<f4")
-    depth = decode_depth(data.tobytes(), width=6, height=1, encoding="32FC1")
-    np.testing.assert_array_equal(depth, np.array([[1.25] + [math.nan] * 5], dtype=np.float32))
-
-
-@pytest.mark.parametrize("encoding", ["16UC1", "32FC1"])
-def test_byte_order_and_padding_are_heeded(encoding: str) -> None:
-    kind = {"16UC1": ">u2", "32FC1": ">f4"}[encoding]
-    rows = np.array([[1, 2, 3], [4, 5, 6]], dtype=kind)
-    padded = b"".join(row.tobytes() + b"\xff\xff\xff\xff" for row in rows)
-    step = 3 * rows.itemsize + 4
-    depth = decode_depth(padded, width=3, height=2, encoding=encoding, step=step, big_endian=True)
-    scale = 1e-3 if encoding == "16UC1" else 1.0
-    np.testing.assert_allclose(depth, rows.astype(float) * scale, rtol=1e-6)
 
 
 @pytest.mark.parametrize(
@@ -146,9 +139,8 @@ def test_byte_order_and_padding_are_heeded(encoding: str) -> None:
 def test_sizes_that_do_not_fit_are_refused(
     width: int, height: int, encoding: str, step: int, code: str
 ) -> None:
-    with pytest.raises(RetrieverError) as caught:
+    with refused(code):
         decode_depth(bytes(8), width=width, height=height, encoding=encoding, step=step)
-    assert caught.value.code == code
 
 
 HEADER = struct.pack("<iff", 0, 0.0, 0.0)
@@ -195,11 +187,22 @@ def test_a_png_gives_back_its_colours_and_a_jpeg_nearly():
     assert np.abs(decode_compressed_color(jpeg).astype(int) - SCENE).mean() < 3
 
 
-@pytest.mark.parametrize("data", [b"", b"\x00" * 100, png(SCENE)[:40], b"\x89PNG\r\n\x1a\n"])
+def gigantic() -> bytes:
+    """The head of a picture of a million by a million."""
+    chunk = b"IHDR" + struct.pack(">IIBBBBB", 1 << 20, 1 << 20, 8, 2, 0, 0, 0)
+    return (
+        b"\x89PNG\r\n\x1a\n"
+        + struct.pack(">I", 13)
+        + chunk
+        + struct.pack(">I", zlib.crc32(chunk))
+        + bytes(50)
+    )
+
+
+@pytest.mark.parametrize("data", [b"", b"\x00" * 100, png(SCENE)[:40], gigantic()])
 def test_what_is_no_picture_is_refused(data):
-    with pytest.raises(RetrieverError) as refused:
+    with refused("not_an_image"):
         decode_compressed_color(data)
-    assert refused.value.code == "not_an_image"
 
 
 @pytest.mark.parametrize(
@@ -261,19 +264,5 @@ def test_no_bytes_make_rvl_do_more_than_refuse(data, pixels):
     ],
 )
 def test_what_is_no_depth_is_refused_with_a_reason(code, data, message_format):
-    with pytest.raises(RetrieverError) as refused:
+    with refused(code):
         decode_compressed_depth(data, message_format)
-    assert refused.value.code == code
-
-
-def test_a_picture_that_claims_to_be_gigantic_is_refused():
-    chunk = b"IHDR" + struct.pack(">IIBBBBB", 1 << 20, 1 << 20, 8, 2, 0, 0, 0)
-    data = (
-        b"\x89PNG\r\n\x1a\n"
-        + struct.pack(">I", 13)
-        + chunk
-        + struct.pack(">I", zlib.crc32(chunk))
-        + bytes(50)
-    )
-    with pytest.raises(RetrieverError):
-        decode_compressed_color(data)

@@ -5,29 +5,10 @@ from __future__ import annotations
 import camera_take as take
 import numpy as np
 import pytest
-from sensor_msgs.msg import CameraInfo, RegionOfInterest
+from sensor_msgs.msg import RegionOfInterest
 
-from teo_skeleton_retriever.camera.rgbd_image import camera_of, color_of, depth_of, shows_depth
+from teo_skeleton_retriever.camera.rgbd_image import camera_of
 from teo_skeleton_retriever.errors import RetrieverError
-
-
-def test_messages_become_the_arrays_they_were_made_from():
-    np.testing.assert_array_equal(color_of(take.color_message(0)), take.color())
-    np.testing.assert_array_equal(color_of(take.compressed_color(0)), take.color())
-    np.testing.assert_allclose(depth_of(take.depth_message(0)), take.depth(), atol=1e-6)
-    np.testing.assert_allclose(depth_of(take.compressed_depth(0)), take.depth(), atol=1e-6)
-    metres = take.image_message(take.depth(), "32FC1", 0)
-    np.testing.assert_array_equal(depth_of(metres), take.depth())
-    swapped = take.image_message((take.depth() * 1000).astype(">u2"), "16UC1", 0, is_bigendian=1)
-    np.testing.assert_allclose(depth_of(swapped), take.depth(), atol=1e-6)
-
-
-def test_colour_and_depth_are_told_apart():
-    assert shows_depth(take.depth_message(0))
-    assert shows_depth(take.compressed_depth(0))
-    assert shows_depth(take.color_message(0)) is False
-    assert shows_depth(take.compressed_color(0)) is False
-    assert shows_depth(take.color_message(0, encoding="bayer_grbg8")) is None
 
 
 def test_distortion_is_kept_and_goes_where_the_images_are_rectified():
@@ -53,9 +34,3 @@ def test_a_region_and_binning_move_and_scale_the_image():
     point = np.array([[0.1, -0.2, 2.0]])
     whole = camera_of(take.camera_info(0)).project(point)
     np.testing.assert_allclose(camera.project(point), (whole - [20, 40]) / 2)
-
-
-def test_an_uncalibrated_camera_is_refused():
-    with pytest.raises(RetrieverError) as refused:
-        camera_of(CameraInfo(width=320, height=240))
-    assert refused.value.code == "no_focal_length"

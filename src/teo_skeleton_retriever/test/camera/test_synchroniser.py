@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -27,23 +28,32 @@ def fed(sync: Synchroniser, *arrivals: tuple[str, int]) -> list[tuple[int, int]]
     return pairs
 
 
-def test_the_nearest_depth_is_taken_and_waited_for():
-    sync = new()
-    assert fed(sync, ("d", BASE - 9 * MS), ("c", BASE)) == []  # a nearer one may come
-    assert fed(sync, ("d", BASE + 2 * MS)) == [(BASE, BASE + 2 * MS)]
-
-
-def test_beyond_the_slop_nothing_is_paired_and_the_image_is_counted():
+@pytest.mark.parametrize(
+    ("depths", "paired"),
+    [
+        ((-9, 2), 2),  # the nearer one is waited for
+        ((-3, 30), -3),
+        ((10,), 10),
+        ((0, 0), 0),
+        ((10 + 1 / MS, 100), None),
+    ],
+)
+def test_the_nearest_depth_within_the_slop_is_taken(depths: tuple[float, ...], paired: int | None):
+    before, after = (
+        [("d", BASE + round(d * MS)) for d in depths if (d < 0) is early] for early in (True, False)
+    )
     sync = new(slop=10 * MS)
-    assert fed(sync, ("c", BASE), ("d", BASE + 10 * MS + 1)) == []
-    assert sync.dropped[NO_DEPTH] == 1
-    assert fed(new(slop=10 * MS), ("c", BASE), ("d", BASE + 10 * MS)) == [(BASE, BASE + 10 * MS)]
+    pairs = [] if paired is None else [(BASE, BASE + paired * MS)]
+    assert fed(sync, *before, ("c", BASE)) == []
+    assert fed(sync, *after) == pairs
+    assert sync.dropped[NO_DEPTH] == 1 - len(pairs)
 
 
-def test_colour_does_not_wait_for_ever_where_no_depth_comes():
+@pytest.mark.parametrize(("kind", "reason"), [("c", NO_DEPTH), ("d", NO_COLOR)])
+def test_what_has_no_other_half_does_not_wait_for_ever(kind: str, reason: str):
     sync = new(capacity=3)
-    assert fed(sync, *[("c", BASE + i * PERIOD) for i in range(10)]) == []
-    assert sync.dropped == {NO_DEPTH: 7}
+    assert fed(sync, *[(kind, BASE + i * PERIOD) for i in range(10)]) == []
+    assert sync.dropped == {reason: 7}
 
 
 def test_depth_that_lags_by_a_few_images_is_waited_for():
@@ -62,14 +72,6 @@ def test_depth_at_half_the_rate_pairs_with_every_other_colour():
     ]
     assert [s for s, _ in fed(sync, *arrivals)] == [BASE + i * PERIOD for i in range(0, 10, 2)]
     assert sync.dropped[NO_DEPTH] == 4  # the last still waits
-
-
-def test_a_second_colour_of_the_same_stamp_and_a_late_one_are_dropped():
-    sync = new()
-    later = BASE + PERIOD
-    assert fed(sync, ("c", later), ("c", later), ("d", later)) == [(later, later)]
-    assert fed(sync, ("c", later), ("c", BASE), ("d", BASE)) == []
-    assert sync.dropped[OVERTAKEN] == 3
 
 
 def test_stamps_that_jump_back_begin_anew():
@@ -110,28 +112,3 @@ def test_whatever_comes_pairs_are_near_ascend_and_no_image_is_lost_uncounted(arr
     assert len({depth for _, depth in pairs}) == len(pairs)
     colors = sum(kind == "c" for kind, _ in arrivals)
     assert len(pairs) + sync.dropped[NO_DEPTH] + sync.dropped[OVERTAKEN] == colors
-
-
-def test_equal_stamps_pair_at_once_whichever_comes_first():
-    assert fed(new(), ("c", BASE), ("d", BASE)) == [(BASE, BASE)]
-    assert fed(new(), ("d", BASE), ("c", BASE)) == [(BASE, BASE)]
-
-
-def test_an_earlier_depth_is_taken_where_the_later_is_farther():
-    assert fed(new(), ("d", BASE - 3 * MS), ("c", BASE), ("d", BASE + 30 * MS)) == [(BASE, BASE - 3 * MS)]
-
-
-def test_depth_without_colour_is_let_go():
-    sync = new(capacity=3)
-    assert fed(sync, *[("d", BASE + i * PERIOD) for i in range(10)]) == []
-    assert sync.dropped == {NO_COLOR: 7}
-
-
-def test_a_second_depth_of_the_same_stamp_changes_nothing():
-    assert fed(new(), ("d", BASE), ("d", BASE), ("c", BASE)) == [(BASE, BASE)]
-
-
-def test_colour_that_comes_out_of_order_while_it_waits_comes_out_in_order():
-    sync = new()
-    assert fed(sync, ("c", BASE + PERIOD), ("c", BASE)) == []
-    assert [s for s, _ in fed(sync, ("d", BASE), ("d", BASE + PERIOD))] == [BASE, BASE + PERIOD]

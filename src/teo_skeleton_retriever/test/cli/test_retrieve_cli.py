@@ -80,23 +80,12 @@ def test_json_is_a_line_for_each_image_and_nothing_else_on_the_output(bag, seen)
 
 
 def test_one_image_is_enough(seen, tmp_path):
-    cv2.imwrite(str(tmp_path / "a.png"), take.color()[:, :, ::-1])
-    cv2.imwrite(str(tmp_path / "b.png"), (take.depth() * 1000).astype(np.uint16))
-    camera = {
-        "width": take.WIDTH,
-        "height": take.HEIGHT,
-        "k": [300, 0, 159.5, 0, 300, 119.5, 0, 0, 1],
-        "d": [],
-    }
-    (tmp_path / "c.json").write_text(json.dumps(camera))
-    files = [
-        "--color",
-        tmp_path / "a.png",
-        "--depth",
-        tmp_path / "b.png",
-        "--camera-info",
-        tmp_path / "c.json",
-    ]
+    color, depth, info = (tmp_path / name for name in ("a.png", "b.png", "c.json"))
+    cv2.imwrite(str(color), take.color()[:, :, ::-1])
+    cv2.imwrite(str(depth), (take.depth() * 1000).astype(np.uint16))
+    k = [300, 0, 159.5, 0, 300, 119.5, 0, 0, 1]
+    info.write_text(json.dumps({"width": take.WIDTH, "height": take.HEIGHT, "k": k, "d": []}))
+    files = ["--color", color, "--depth", depth, "--camera-info", info]
     code, stdout, _ = run(*files, "--json", *seen)
     (person,) = json.loads(stdout)["skeletons"]
     assert code == 0
@@ -104,15 +93,9 @@ def test_one_image_is_enough(seen, tmp_path):
     assert 0.0 <= z - take.DISTANCE < 0.1
     np.testing.assert_allclose([x / z, y / z], [(130 - 159.5) / 300, (155 - 119.5) / 300], atol=0.03)
     assert "RWrist" in run(*files, *seen)[1]
-    (tmp_path / "c.json").write_text("{}")
+    info.write_text("{}")
     code, _, stderr = run(*files, *seen)
     assert (code, "bad_camera_info" in stderr) == (1, True)
-
-
-def test_parameters_of_the_retriever_can_be_set(bag, seen):
-    _, stdout, _ = run(bag, "--json", "-p", "newcomer_images=5", *seen)
-    people = [len(json.loads(line)["skeletons"]) for line in stdout.splitlines()]
-    assert people == [0] * 4 + [1] * (IMAGES - 4)
 
 
 @pytest.mark.parametrize(
@@ -152,26 +135,22 @@ def test_what_cannot_be_read_or_written_is_told_with_its_reason(bag, seen, code,
     assert (status, code in stderr) == (1, True)
 
 
-def test_a_film_without_an_image_is_not_said_to_be_written(seen, tmp_path):
+def changed(tmp_path, change, topic=bag_take.DEPTH, images=IMAGES):
+    """A bag whose messages of a topic are others."""
     stored = [
-        (topic, kind, time, take.color_message(time, encoding="odd") if topic == bag_take.COLOR else message)
-        for topic, kind, time, message in bag_take.messages(2)
+        (name, kind, time, change(time) if name == topic else message)
+        for name, kind, time, message in bag_take.messages(images)
     ]
+    return bag_take.write_ros2(tmp_path / "changed", stored)
+
+
+def test_a_film_without_an_image_is_not_said_to_be_written(seen, tmp_path):
+    bag = changed(tmp_path, lambda time: take.color_message(time, encoding="odd"), bag_take.COLOR, 2)
     out, film = tmp_path / "x.mcap", tmp_path / "x.mp4"
-    bag = bag_take.write_ros2(tmp_path / "odd", stored)
     code, stdout, _ = run(bag, "--color-topic", bag_take.COLOR, "--out", out, "--video", film, *seen)
     assert (code, film.exists()) == (1, False)
     assert f"wrote {out}" in stdout
     assert f"wrote {film}" not in stdout
-
-
-def changed(tmp_path, name, change, images=IMAGES):
-    """A bag whose depth messages are others."""
-    stored = [
-        (topic, kind, time, change(time) if topic == bag_take.DEPTH else message)
-        for topic, kind, time, message in bag_take.messages(images)
-    ]
-    return bag_take.write_ros2(tmp_path / name, stored)
 
 
 def centimetres(metres):
@@ -190,25 +169,25 @@ def centimetres(metres):
     ],
 )
 def test_people_whom_no_depth_places_are_told_with_the_likely_cause(tmp_path, seen, cause, pixels, encoding):
-    bag = changed(tmp_path, "odd", lambda time: take.image_message(pixels(take.depth()), encoding, time))
+    bag = changed(tmp_path, lambda time: take.image_message(pixels(take.depth()), encoding, time))
     code, _, stderr = run(bag, "--json", *seen)
     assert code == 1
     assert f"1 person in colour, nobody in space, in {IMAGES} images" in stderr
     assert cause in stderr
 
 
-def test_a_recording_shorter_than_a_newcomers_trial_says_so(tmp_path, seen):
-    bag = bag_take.write_ros2(tmp_path / "short", list(bag_take.messages(2)))
-    code, _, stderr = run(bag, *seen)
+def test_a_newcomers_trial_can_be_set_and_a_recording_shorter_than_it_says_so(bag, tmp_path, seen):
+    _, stdout, _ = run(bag, "--json", "-p", "newcomer_images=5", *seen)
+    people = [len(json.loads(line)["skeletons"]) for line in stdout.splitlines()]
+    assert people == [0] * 4 + [1] * (IMAGES - 4)
+    short = bag_take.write_ros2(tmp_path / "short", list(bag_take.messages(2)))
+    code, _, stderr = run(short, *seen)
     assert (code, "-p newcomer_images=1" in stderr) == (1, True)
-    assert run(bag, "-p", "newcomer_images=1", *seen)[0] == 0
+    assert run(short, "-p", "newcomer_images=1", *seen)[0] == 0
 
 
 def test_stamps_too_far_apart_are_told_with_the_bound_that_pairs_them(tmp_path, seen):
-    def later(time):
-        return take.depth_message(time + take.PERIOD // 2 + 8_000_000)
-
-    bag = changed(tmp_path, "late", later)
+    bag = changed(tmp_path, lambda time: take.depth_message(time + take.PERIOD // 2 + 8_000_000))
     code, _, stderr = run(bag, "--slop", "0.005", *seen)
     assert code == 1
     assert "got the nearest 0.0" in stderr
@@ -218,7 +197,7 @@ def test_stamps_too_far_apart_are_told_with_the_bound_that_pairs_them(tmp_path, 
 
 @pytest.mark.parametrize("seconds", [-5, 5])
 def test_stamps_of_different_clocks_are_told_and_no_slop_is_proposed(tmp_path, seen, seconds):
-    bag = changed(tmp_path, "clocks", lambda time: take.depth_message(time + seconds * 10**9))
+    bag = changed(tmp_path, lambda time: take.depth_message(time + seconds * 10**9))
     code, _, stderr = run(bag, *seen)
     assert code == 1
     assert "different clocks" in stderr
@@ -227,18 +206,8 @@ def test_stamps_of_different_clocks_are_told_and_no_slop_is_proposed(tmp_path, s
 
 
 def test_a_raw_mosaic_is_explained(tmp_path, seen):
-    stored = [
-        (
-            topic,
-            kind,
-            time,
-            take.image_message(take.color()[..., 0], "bayer_rggb8", time)
-            if topic == bag_take.COLOR
-            else message,
-        )
-        for topic, kind, time, message in bag_take.messages(2)
-    ]
-    bag = bag_take.write_ros2(tmp_path / "bayer", stored)
+    mosaic = take.color()[..., 0]
+    bag = changed(tmp_path, lambda time: take.image_message(mosaic, "bayer_rggb8", time), bag_take.COLOR, 2)
     for options in ([], ["--color-topic", bag_take.COLOR]):
         code, _, stderr = run(bag, *options, *seen)
         assert (code, "debayer" in stderr) == (1, True)

@@ -21,12 +21,6 @@ def look(depths: np.ndarray, expected: float = math.nan) -> FaceDepths:
     return face_depths(FACE[:, :2] / FACE[:, 2:], surfaces, expected)
 
 
-def test_a_face_that_is_seen_is_measured() -> None:
-    found = look(DEPTHS)
-    np.testing.assert_allclose(found.depths[found.measured], DEPTHS[found.measured])
-    assert found.measured.mean() > 0.9
-
-
 def test_a_hand_before_a_third_of_the_face_is_looked_through() -> None:
     depths = DEPTHS.copy()
     hidden = FACE[:, 0] > np.quantile(FACE[:, 0], 0.67)

@@ -1,7 +1,5 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Neck and shoulders beside hands that hide them: the truth is where the body was put."""
-
 from __future__ import annotations
 
 import math

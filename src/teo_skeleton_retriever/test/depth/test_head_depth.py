@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from teo_skeleton_retriever.depth.depth_lookup import Surfaces
-from teo_skeleton_retriever.depth.head_depth import HEAD, HeadDepths, head_depths
+from teo_skeleton_retriever.depth.head_depth import HeadDepths, head_depths
 
 EYES = 1.5  # [m]
 # Nose, eyes and ears of a head that faces the camera; the skin is where they are.
@@ -57,4 +57,3 @@ def test_a_head_that_is_wholly_hidden_stays_where_it_was_or_where_the_shoulders_
         np.testing.assert_allclose(found.depths, DEPTHS, atol=0.03)
         assert found.hidden.all()
     assert np.isnan(look(*nothing, neck=math.nan).depths).all()
-    assert len(HEAD) == 5

@@ -6,14 +6,13 @@ import math
 
 import numpy as np
 import pytest
+from refusals import refused
 
 from teo_skeleton_retriever.compat.original_retriever import CONVERGED_OPTIONS, IpoptLimbSolver
 from teo_skeleton_retriever.depth.limb_solver import FastLimbSolver, LimbChain
-from teo_skeleton_retriever.errors import RetrieverError
 
 FAST = FastLimbSolver()
 CONVERGED = IpoptLimbSolver(CONVERGED_OPTIONS)
-ORIGINAL = IpoptLimbSolver()
 
 
 def random_chain(random: np.random.Generator, joints: int) -> LimbChain:
@@ -32,19 +31,6 @@ def random_chain(random: np.random.Generator, joints: int) -> LimbChain:
 def chains(joints: int, count: int) -> list[LimbChain]:
     random = np.random.default_rng(joints)
     return [random_chain(random, joints) for _ in range(count)]
-
-
-@pytest.mark.parametrize("joints", [3, 4])
-@pytest.mark.parametrize("solver", [FAST, CONVERGED, ORIGINAL], ids=["fast", "converged", "original"])
-def test_solutions_keep_their_rays_and_bounds(solver: FastLimbSolver | IpoptLimbSolver, joints: int) -> None:
-    for chain in chains(joints, 30):
-        solution = solver.solve(chain)
-        assert solution.converged
-        assert (solution.depths >= chain.lower - 1e-6).all()
-        assert (solution.depths <= chain.upper + 1e-6).all()
-        np.testing.assert_allclose(
-            chain.points(solution.depths)[:, :2], chain.rays * solution.depths[:, None]
-        )
 
 
 @pytest.mark.parametrize("joints", [3, 4])
@@ -79,6 +65,5 @@ GOOD = LimbChain.original(np.array([[0.0, 0.0, 2.0], [0.2, 0.0, 2.0]]), np.array
 )
 def test_what_makes_no_problem_is_refused(changes: dict[str, np.ndarray], code: str) -> None:
     fields = {name: getattr(GOOD, name) for name in ("rays", "lengths", "start", "lower", "upper")}
-    with pytest.raises(RetrieverError) as caught:
+    with refused(code):
         LimbChain(**{**fields, **changes})
-    assert caught.value.code == code

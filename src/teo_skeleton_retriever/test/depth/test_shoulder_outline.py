@@ -1,7 +1,5 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Shoulders by the outline of a flat body before a wall: its breadth is known."""
-
 from __future__ import annotations
 
 import numpy as np

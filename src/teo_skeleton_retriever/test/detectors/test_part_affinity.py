@@ -1,7 +1,5 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""People from confidence maps and limb fields that are drawn from known people."""
-
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -32,7 +30,6 @@ NEAR = 1.0
 """How far a part may be from where it was drawn [px]: an eighth of a cell."""
 CROSSING = 8.0
 """The same where parts may lie on each other, whose peaks are then drawn as one [px]: a cell."""
-ARMS = ("RShoulder", "RElbow", "RWrist", "LShoulder", "LElbow", "LWrist")
 
 
 def decode(
@@ -113,13 +110,6 @@ def test_one_person_is_found_whole_however_the_arms_are_held(
     found = decode(*draw([parts], SIZE, model), model=model)
     # A part beside its neighbour's field may catch it; the drawn arms are one person's all the same.
     assert_same_people(found, [parts], near=CROSSING)
-
-
-def test_people_whose_arms_cross_keep_their_own() -> None:
-    left = person(270, 90, 270, LElbow=(0.2, 0.05), LWrist=(0.4, -0.08))
-    right = person(410, 90, 270, RElbow=(-0.2, 0.02), RWrist=(-0.42, 0.1))
-    assert left[place("LWrist"), 0] > right[place("RElbow"), 0]
-    assert_same_people(decode(*draw([left, right], SIZE)), [left, right])
 
 
 @pytest.mark.parametrize("apart", [60.0, 45.0, 30.0])

@@ -1,7 +1,5 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Clips made of the true skeletons of the synthetic signer, lifted and compared with them."""
-
 from __future__ import annotations
 
 import math

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -82,23 +84,13 @@ def test_every_keypoint_has_its_name_and_a_lost_part_is_left_out():
     assert np.isnan(message.body_frame.position.x)
 
 
-def person(track_id: int, known: list[int], is_signer: bool = False) -> Skeleton:
+def test_what_is_known_of_a_person_is_bones_joints_and_a_label() -> None:
     parts = {part: Keypoints3D.lost(len(layout)) for part, layout in SKELETON_PARTS.items()}
     points, status = np.full((25, 3), np.nan), np.zeros(25, dtype=np.uint8)
-    points[known] = np.column_stack([np.arange(len(known)), np.zeros(len(known)), np.ones(len(known))])
-    status[known] = 1
-    parts["body"] = Keypoints3D(
-        points=points,
-        confidence=np.ones(25),
-        status=status,
-        sigma=np.full((25, 3), 0.01),
-        pixels=np.full((25, 2), np.nan),
-    )
-    return Skeleton(track_id=track_id, is_signer=is_signer, body_frame=None, **parts)
-
-
-def test_a_person_is_bones_joints_and_a_label():
-    markers = marker_array([person(7, [1, 2, 3], is_signer=True)], Header(frame_id="camera")).markers
+    points[[1, 2, 3]], status[[1, 2, 3]] = np.eye(3), 1
+    parts["body"] = replace(parts["body"], points=points, status=status)
+    known = Skeleton(track_id=7, is_signer=True, body_frame=None, **parts)
+    markers = marker_array([known], Header(frame_id="camera")).markers
     bones, joints, label = markers
     assert [marker.type for marker in markers] == [
         Marker.LINE_LIST,
@@ -110,9 +102,4 @@ def test_a_person_is_bones_joints_and_a_label():
     assert label.text == "7 signer"
     assert {marker.header.frame_id for marker in markers} == {"camera"}
     assert all(marker.lifetime.nanosec or marker.lifetime.sec for marker in markers)
-
-
-def test_only_what_is_known_is_marked_and_no_number_is_nan():
-    for marker in marker_array([person(0, [4]), person(1, [])], Header()).markers:
-        assert marker.type != Marker.LINE_LIST
-        assert all(np.isfinite([point.x, point.y, point.z]).all() for point in marker.points)
+    assert all(np.isfinite([point.x, point.y, point.z]).all() for point in (*bones.points, *joints.points))

@@ -83,15 +83,6 @@ def ends(length: float, along: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
     return NEAR, NEAR + length * direction
 
 
-def test_ours_has_an_estimate_after_a_third_of_a_second() -> None:
-    limb = LimbLength()
-    for _ in range(9):
-        limb.step(*ends(0.28))
-    assert limb.value is None
-    limb.step(*ends(0.28))
-    assert limb.value == pytest.approx(0.28)
-
-
 def test_a_bad_start_is_forgotten() -> None:
     limb = LimbLength()
     for _ in range(41):

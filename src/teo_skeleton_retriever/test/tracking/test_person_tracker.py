@@ -9,12 +9,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from refusals import refused
 
-from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.tracking.person_tracker import PersonTracker, SignerChoice
 
 RATE = 30.0  # [1/s]
-NOWHERE = np.full(3, math.nan)
 AT_ONCE = 1
 
 
@@ -44,22 +43,8 @@ def kept(ids: list[list[int | None]]) -> bool:
     return all(len(column) == 1 for column in columns) and len(set().union(*columns)) == len(columns)
 
 
-def test_someone_gets_an_id_in_their_third_image() -> None:
-    assert walk(line((0, 0, 2), (0, 0, 2), 5)) == [[None], [None], [0], [0], [0]]
-
-
-def test_two_who_cross_at_different_depths_keep_their_ids() -> None:
-    assert kept(walk(line((-1, 0, 2.0), (1, 0, 2.0)), line((1, 0, 2.6), (-1, 0, 2.6))))
-
-
 def test_two_who_cross_close_by_keep_their_ids_by_how_they_move() -> None:
     assert kept(walk(line((-1, 0, 2.0), (1, 0, 2.0)), line((1, 0, 2.25), (-1, 0, 2.25))))
-
-
-def test_someone_hidden_by_who_crosses_keeps_their_id() -> None:
-    standing = line((0, 0, 2.6), (0, 0, 2.6))
-    standing[35:60] = [None] * 25
-    assert kept(walk(line((-1, 0, 1.8), (1, 0, 1.8)), standing))
 
 
 def test_someone_who_walks_on_while_hidden_keeps_their_id() -> None:
@@ -81,12 +66,6 @@ def test_as_many_as_possible_are_recognised() -> None:
     tracker = PersonTracker(AT_ONCE)
     tracker.step(0.0, [np.array([0.0, 0.0, 2.0]), np.array([0.3, 0.0, 2.0])])
     assert tracker.step(0.001, [np.array([0.25, 0.0, 2.0]), np.array([0.6, 0.0, 2.0])]) == [0, 1]
-
-
-def test_time_that_runs_backwards_forgets_people_but_no_id_is_given_twice() -> None:
-    tracker = PersonTracker(AT_ONCE)
-    assert tracker.step(10.0, [np.array([0.0, 0.0, 2.0])]) == [0]
-    assert tracker.step(1.0, [np.array([0.0, 0.0, 2.0])]) == [1]
 
 
 @given(st.lists(st.lists(st.tuples(*[st.floats(-3, 3)] * 3), max_size=4), max_size=12))
@@ -119,9 +98,8 @@ def test_of_several_places_where_a_person_may_be_that_where_they_are_expected_is
 
 @pytest.mark.parametrize("time", [math.nan, math.inf])
 def test_a_time_that_is_none_is_refused(time: float) -> None:
-    with pytest.raises(RetrieverError) as caught:
+    with refused("bad_time"):
         PersonTracker().step(time, [])
-    assert caught.value.code == "bad_time"
 
 
 FAR_AHEAD = np.array([0.0, 0.0, 2.5])
@@ -147,14 +125,6 @@ def test_a_signer_who_is_hidden_is_waited_for_then_given_up() -> None:
     assert choice.signer == 1
     assert choice.step(2.1, {2: NEAR_ASIDE}) == 2
     assert choice.step(2.2, {1: FAR_AHEAD, 2: NEAR_ASIDE}) == 2
-
-
-def test_a_locked_signer_is_waited_for_without_end() -> None:
-    choice = SignerChoice("nearest", 0.1)
-    choice.lock(9)
-    assert choice.step(0.0, {1: FAR_AHEAD}) is None
-    assert choice.step(1e6, {1: FAR_AHEAD}) is None
-    assert choice.step(1e6 + 1, {1: FAR_AHEAD, 9: NEAR_ASIDE}) == 9
 
 
 def test_after_unlocking_the_signer_stays_until_they_leave() -> None:
