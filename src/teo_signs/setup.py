@@ -13,7 +13,7 @@ setup(
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
         (f"share/{PACKAGE}", ["package.xml", "sign.schema.json"]),
     ],
-    install_requires=["numpy", "pydantic", "scipy"],
+    install_requires=["msgspec", "numpy", "scipy"],
     zip_safe=False,
     maintainer="TEO signing project",
     maintainer_email="teo-sign@example.org",

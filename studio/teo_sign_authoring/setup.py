@@ -15,6 +15,7 @@ setup(
     ],
     install_requires=[
         "fonttools",
+        "msgspec",
         "numpy",
         "pin",
         "pose-format",

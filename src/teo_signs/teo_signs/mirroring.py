@@ -17,6 +17,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
+from msgspec.structs import replace as changed
 
 from teo_common.arrays import Array
 from teo_description.humanoid import SIDES, Side
@@ -99,7 +100,7 @@ def mirrored_sign(robot: Robot, sign: Sign) -> Sign:
         handedness=_OTHER_HAND[sign.handedness],
         joints=joints,
         knots=knots,
-        provenance=sign.provenance.model_copy(update={"notes": notes}),
+        provenance=changed(sign.provenance, notes=notes),
         quality={**sign.quality, **figures} if turn else sign.quality,
         forms=forms,
     )

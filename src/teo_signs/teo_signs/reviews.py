@@ -14,11 +14,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Literal, NamedTuple
 
-from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
+import msgspec
+from msgspec import Meta, Struct
+from msgspec.structs import replace as changed
 
 from teo_signs.errors import LutError
 from teo_signs.sign import Sign, motion_hash
-from teo_signs.sign_schema import Gloss, Provenance, Review
+from teo_signs.sign_schema import Gloss, Provenance, Review, check_gloss
 
 #: What a reviewer finds a motion to be.
 Rating = Literal["right", "understandable", "wrong"]
@@ -33,33 +35,28 @@ LEAST_RIGHT = 0.75
 _MAX_EXPORT_BYTES = 30_000_000
 
 
-class SignRating(BaseModel):
+class SignRating(Struct, frozen=True, kw_only=True, tag_field="kind", tag="sign"):
     """One person's rating of one sign's motion, as exported; further fields are for people."""
 
-    model_config = ConfigDict(frozen=True, extra="ignore")
-
-    kind: Literal["sign"]
-    reviewer: Annotated[str, Field(min_length=1)]
+    reviewer: Annotated[str, Meta(min_length=1)]
     gloss: Gloss
-    motion_hash: Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]
+    motion_hash: Annotated[str, Meta(pattern=r"^[0-9a-f]{64}$")]
     rating: Rating | None
     """None where the person has said what was understood and has not rated it."""
     at: datetime.datetime
 
+    def __post_init__(self) -> None:
+        """Refuse a name that no sign may have."""
+        check_gloss(self.gloss)
 
-class _SentenceRating(BaseModel):
+
+class _SentenceRating(Struct, frozen=True, tag_field="kind", tag="sentence"):
     """One person's rating of a sentence, which says nothing of any sign in it."""
 
-    model_config = ConfigDict(frozen=True, extra="ignore")
 
-    kind: Literal["sentence"]
-
-
-class _Export(BaseModel):
-    model_config = ConfigDict(frozen=True, extra="ignore")
-
+class _Export(Struct, frozen=True):
     format: Literal["teo-review-1"]
-    answers: list[Annotated[SignRating | _SentenceRating, Field(discriminator="kind")]]
+    answers: list[SignRating | _SentenceRating]
 
 
 class Rule(NamedTuple):
@@ -104,12 +101,10 @@ def read_ratings(path: Path) -> list[SignRating]:
     if len(text) > _MAX_EXPORT_BYTES:
         raise LutError("too_large", f"{path}: expected at most {_MAX_EXPORT_BYTES} bytes, got more")
     try:
-        export = TypeAdapter(_Export).validate_json(text)
-    except ValidationError as errors:
-        first = errors.errors(include_url=False, include_input=False)[0]
-        place = ".".join(str(part) for part in first["loc"]) or "file"
-        message = f"{path.name}: {place}: expected an export of reviews in JSON: {first['msg']}"
-        raise LutError("bad_review", message) from errors
+        export = msgspec.json.decode(text, type=_Export)
+    except msgspec.DecodeError as error:  # of those that do not fit, too
+        message = f"{path.name}: expected an export of reviews in JSON: {error}"
+        raise LutError("bad_review", message) from error
     return [answer for answer in export.answers if isinstance(answer, SignRating)]
 
 
@@ -151,10 +146,12 @@ def _standing_by(
     """The provenance after enough people rated the motion `shown`."""
     earlier = provenance.review
     source = provenance.standing if earlier is None else earlier.standing
+    assert source != "reviewed"  # no provenance says so without a review
     if right < rule.least_right * reviewers:
-        return provenance.model_copy(update={"standing": source, "review": None})
-    count = {"reviewers": reviewers, "right": right, "motion_hash": shown}
-    if earlier is not None and earlier.model_dump(include=set(count)) == count:
-        return provenance.model_copy(update={"standing": "reviewed"})  # of the day that it names already
-    review = Review.model_validate({**count, "standing": source, "reviewed": day.isoformat()})
-    return provenance.model_copy(update={"standing": "reviewed", "review": review})
+        return changed(provenance, standing=source, review=None)
+    review = Review(
+        reviewers=reviewers, right=right, standing=source, motion_hash=shown, reviewed=day.isoformat()
+    )
+    if earlier is not None and changed(review, reviewed=earlier.reviewed) == earlier:
+        review = earlier  # of the day that it names already
+    return changed(provenance, standing="reviewed", review=review)

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
 import numpy as np
+from msgspec.structs import replace as changed
 from numpy.typing import NDArray
 
 from teo_description.humanoid import SIDES, load_humanoid
@@ -165,7 +166,7 @@ def with_standing_in_force(sign: Sign) -> Sign:
     review = provenance.review
     if provenance.standing != "reviewed" or review is None or review.motion_hash == motion_hash(sign):
         return sign
-    return replace(sign, provenance=provenance.model_copy(update={"standing": review.standing}))
+    return replace(sign, provenance=changed(provenance, standing=review.standing))
 
 
 def with_alternatives_in_force(sign: Sign) -> Sign:

@@ -6,22 +6,31 @@ from __future__ import annotations
 
 import functools
 import json
+import math
+from collections.abc import Callable
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NoReturn
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import ValidationError
-from pydantic_core import ErrorDetails
 
 from teo_common.atomic_files import write_atomically
+from teo_common.checked_content import ContentError, converted
 from teo_description.errors import DescriptionError
 from teo_description.humanoid import Humanoid, load_humanoid
 from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
 from teo_signs.errors import LutError
 from teo_signs.sign import Form, Sign, gloss_key, with_alternatives_in_force, with_standing_in_force
-from teo_signs.sign_schema import DEFAULT_ROBOT, SCHEMA_VERSION, FormFile, Provenance, SignFile
+from teo_signs.sign_schema import (
+    DEFAULT_ROBOT,
+    SCHEMA_VERSION,
+    FormFile,
+    SignFile,
+    check_date,
+    check_gloss,
+)
 
 # 28 joints at 25 frames a second for a minute are 0.8 MB of text; no sign is longer than that.
 MAX_FILE_BYTES = 1_000_000
@@ -105,8 +114,9 @@ def format_sign(sign: Sign) -> str:
         others = [_json(_rounded_within(sign, other).tolist()) for other in sign.alternatives]
         lines.append(_block("alternatives", "[]", others))
         lines.append(f'  "alternatives_of": {_json(sign.alternatives_of)}')
-    unasked = {"review"} if sign.provenance.review is None else set()
-    provenance = sign.provenance.model_dump(exclude=unasked)
+    provenance = msgspec.to_builtins(sign.provenance)
+    if sign.provenance.review is None:
+        del provenance["review"]
     for key, fields in (("provenance", provenance), ("quality", dict(sign.quality))):
         lines.append(_block(key, "{}", [f"{_json(name)}: {_json(value)}" for name, value in fields.items()]))
     return "{\n" + ",\n".join(lines) + "\n}\n"
@@ -152,8 +162,7 @@ class _Reader:
 
     def read(self, text: str | bytes) -> SignFile:
         content = self._check_fields(self._load_json(text))
-        if content.gloss != self._stem:
-            self._refuse("gloss_mismatch", "gloss", f"{self._stem!r}, the file's name", repr(content.gloss))
+        self._check_names(content)
         self._humanoid = _humanoid(content.robot, self._name)
         self._check_joints(content.joints)
         self._check_motion(content.joints, content, "")
@@ -161,6 +170,8 @@ class _Reader:
             self._check_motion(content.joints, form, f"forms.{inflection}.")
         for index, other in enumerate(content.alternatives):
             self._check_rows(content.joints, content.times, other, f"alternatives[{index}]")
+        for name, value in content.quality.items():
+            self._check_finite(f"quality.{name}", value)
         return content
 
     def _check_motion(self, joints: list[str], motion: SignFile | FormFile, field: str) -> None:
@@ -207,27 +218,33 @@ class _Reader:
         if type(version) is not int or version != SCHEMA_VERSION:
             self._refuse("unsupported_schema", "schema", f"{SCHEMA_VERSION}", _short(version))
         try:
-            checked = SignFile.model_validate(content)
-        except ValidationError as errors:
-            self._refuse_field(errors.errors(include_url=False)[0])
-        return checked
+            return converted(content, SignFile)
+        except ContentError as error:
+            steps = (f"[{step}]" if isinstance(step, int) else f".{step}" for step in error.way)
+            self._refuse(error.code, "".join(steps)[1:], error.expected, error.got)
 
-    def _refuse_field(self, error: ErrorDetails) -> NoReturn:
-        loc, kind, got = error["loc"], error["type"], _short(error["input"])
-        field = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in loc)[1:]
-        # "Input should be a valid string", "Value error, upper case": keep what is expected.
-        expected = error["msg"].removeprefix("Input should be ").removeprefix("Value error, ")
-        if kind == "missing":
-            self._refuse("missing_field", field, "the field", "no such field")
-        elif kind == "extra_forbidden":
-            model = Provenance if loc[0] == "provenance" else SignFile
-            names = [info.alias or name for name, info in model.model_fields.items()]
-            self._refuse("unknown_field", field, f"one of {', '.join(names)}", f"{loc[-1]!r}")
-        elif kind == "finite_number":
-            self._refuse("non_finite", field, "a finite number", got)
-        elif kind.endswith(("_type", "_parsing", "_unicode")):
-            self._refuse("bad_type", field, expected, got)
-        self._refuse("bad_value", field, expected, got)
+    def _check_names(self, content: SignFile) -> None:
+        """What of its texts a pattern cannot say."""
+        self._check_text("gloss", content.gloss, check_gloss)
+        if content.gloss != self._stem:
+            self._refuse("gloss_mismatch", "gloss", f"{self._stem!r}, the file's name", repr(content.gloss))
+        provenance = content.provenance
+        self._check_text("provenance.created", provenance.created, check_date)
+        if provenance.recorded is not None:
+            self._check_text("provenance.recorded", provenance.recorded, check_date)
+        if provenance.review is not None:
+            self._check_text("provenance.review.reviewed", provenance.review.reviewed, check_date)
+
+    def _check_text(self, field: str, text: str, check: Callable[[str], None]) -> None:
+        try:
+            check(text)
+        except ValueError as error:
+            self._refuse("bad_value", field, str(error), _short(text))
+
+    def _check_finite(self, field: str, value: float) -> None:
+        """Refuse what JSON has as a number and a float has not, such as 1e999."""
+        if not math.isfinite(value):
+            self._refuse("non_finite", field, "a finite number", _short(value))
 
     def _check_joints(self, joints: list[str]) -> None:
         seen: set[str] = set()
@@ -243,6 +260,7 @@ class _Reader:
         if times[0] != 0.0:
             self._refuse("bad_start", f"{field}times[0]", "0 s", f"{times[0]:g} s")
         for index in range(1, len(times)):
+            self._check_finite(f"{field}times[{index}]", times[index])
             if times[index] <= times[index - 1]:
                 expected = f"more than {times[index - 1]:g} s, the time before"
                 self._refuse(
@@ -259,6 +277,8 @@ class _Reader:
                 expected = f"{len(joints)} positions, one a joint"
                 self._refuse("wrong_length", f"{field}[{index}]", expected, f"{len(row)}")
         knots = np.array(given, dtype=np.float64)
+        for row_index, column in np.argwhere(~np.isfinite(knots)).tolist():
+            self._check_finite(f"{field}[{row_index}][{column}]", knots[row_index, column])
         lower, upper = _bounds(self._humanoid, joints)
         outside = np.argwhere((knots < lower - LIMIT_TOLERANCE) | (knots > upper + LIMIT_TOLERANCE))
         if outside.size:

@@ -13,7 +13,8 @@ import datetime
 import unicodedata
 from typing import Annotated, Any, Literal, get_args
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, FiniteFloat, model_validator
+import msgspec
+from msgspec import Meta, Struct, field
 
 SCHEMA_VERSION = 1
 
@@ -30,36 +31,42 @@ MAX_GLOSS_LENGTH = 60
 MAX_ALTERNATIVES = 16
 
 
-def _gloss(value: str) -> str:
+def check_gloss(value: str) -> None:
+    """Refuse a name that no sign may have.
+
+    Raises:
+        ValueError: Its text says what was expected.
+    """
+    if not 1 <= len(value) <= MAX_GLOSS_LENGTH:
+        raise ValueError(f"1 to {MAX_GLOSS_LENGTH} characters")
     if value != unicodedata.normalize("NFC", value):
         raise ValueError("Unicode in composed form (NFC)")
     if any(not (char.isalnum() or char in "_-+()") for char in value):
         raise ValueError("letters, digits and _-+() only")
     if value != value.upper():
         raise ValueError(f"upper case ({value.upper()!r})")
-    return value
 
 
-def _date(value: str) -> str:
+def check_date(value: str) -> None:
+    """Refuse what is no day of the calendar, written YYYY-MM-DD.
+
+    Raises:
+        ValueError: Its text says what was expected.
+    """
     try:
         datetime.date.fromisoformat(value)
     except ValueError:
         raise ValueError("a day of the calendar, written YYYY-MM-DD") from None
-    return value
 
 
-Date = Annotated[
-    str,
-    Field(pattern=r"^\d{4}-\d{2}-\d{2}$", json_schema_extra={"format": "date"}),
-    AfterValidator(_date),
-]
-Text = Annotated[str, Field(min_length=1)]
-Gloss = Annotated[str, Field(min_length=1, max_length=MAX_GLOSS_LENGTH), AfterValidator(_gloss)]
+Date = Annotated[str, Meta(pattern=r"^\d{4}-\d{2}-\d{2}$", extra_json_schema={"format": "date"})]
+Text = Annotated[str, Meta(min_length=1)]
+Gloss = Annotated[str, Meta(min_length=1, max_length=MAX_GLOSS_LENGTH)]
 
 #: Longest name of an inflection; the message holds no longer one.
 MAX_INFLECTION_LENGTH = 16
 Inflection = Annotated[
-    str, Field(min_length=1, max_length=MAX_INFLECTION_LENGTH, pattern=r"^[0-9A-ZÁÉÍÓÚÜÑ_>]+$")
+    str, Meta(min_length=1, max_length=MAX_INFLECTION_LENGTH, pattern=r"^[0-9A-ZÁÉÍÓÚÜÑ_>]+$")
 ]
 
 # What a sign's form is founded on, the best first.
@@ -74,120 +81,137 @@ SOURCE_STANDING_MEANING = (
 Standing = Literal["reviewed", SourceStanding]
 STANDINGS: tuple[Standing, ...] = get_args(Standing)
 
-_HASH = r"^[0-9a-f]{64}$"
+_Hash = Annotated[str, Meta(pattern=r"^[0-9a-f]{64}$")]
+_Count = Annotated[int, Meta(ge=0)]
 
 
-class Review(BaseModel):
+class Review(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """What signers have said of a sign's motion."""
 
-    model_config = ConfigDict(strict=True, extra="forbid", frozen=True)
+    reviewers: Annotated[int, Meta(ge=1, description="How many people rated the motion.")]
+    right: Annotated[_Count, Meta(description="How many of them found it right.")]
+    standing: Annotated[
+        SourceStanding,
+        Meta(
+            description="The standing without the review: of another motion than the reviewed one it holds."
+        ),
+    ]
+    motion_hash: Annotated[
+        _Hash, Meta(description="SHA-256 of the motion that was shown, lower-case hexadecimal.")
+    ]
+    reviewed: Annotated[Date, Meta(description="Day on which the review was entered.")]
 
-    reviewers: int = Field(ge=1, description="How many people rated the motion.")
-    right: int = Field(ge=0, description="How many of them found it right.")
-    standing: SourceStanding = Field(
-        description="The standing without the review: of another motion than the reviewed one it holds."
-    )
-    motion_hash: str = Field(
-        pattern=_HASH, description="SHA-256 of the motion that was shown, lower-case hexadecimal."
-    )
-    reviewed: Date = Field(description="Day on which the review was entered.")
 
-
-class Provenance(BaseModel):
+class Provenance(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """Where a sign came from."""
 
-    model_config = ConfigDict(strict=True, extra="forbid", frozen=True)
+    standing: Annotated[
+        Standing,
+        Meta(description=f"{SOURCE_STANDING_MEANING} 'reviewed': enough signers found this motion right."),
+    ]
+    source: Annotated[
+        Text, Meta(description="Recording, publication or person that the sign was taken from.")
+    ]
+    method: Annotated[Text, Meta(description="How the source became joint angles.")]
+    recorded: Annotated[
+        Date | None, Meta(description="Day on which the source was recorded; null where not known.")
+    ]
+    created: Annotated[Date, Meta(description="Day on which this entry was made.")]
+    licence: Annotated[Text, Meta(description="Terms of the source, as an SPDX identifier or a sentence.")]
+    description_hash: Annotated[
+        _Hash,
+        Meta(
+            description="SHA-256 of the URDF text that the joint angles were made for."
+        ),
+    ]
+    notes: Annotated[str, Meta(description="What a reader must know beside the numbers; may be empty.")]
+    review: Annotated[
+        Review | None, Meta(description="What signers said of the motion. Left out where nobody was asked.")
+    ] = None
 
-    standing: Standing = Field(
-        description=f"{SOURCE_STANDING_MEANING} 'reviewed': enough signers found this motion right."
-    )
-    source: Text = Field(description="Recording, publication or person that the sign was taken from.")
-    method: Text = Field(description="How the source became joint angles.")
-    recorded: Date | None = Field(description="Day on which the source was recorded; null where not known.")
-    created: Date = Field(description="Day on which this entry was made.")
-    licence: Text = Field(description="Terms of the source, as an SPDX identifier or a sentence.")
-    description_hash: str = Field(
-        pattern=_HASH,
-        description="SHA-256 of the URDF text that the joint angles were made for, lower-case hexadecimal.",
-    )
-    notes: str = Field(description="What a reader must know beside the numbers; may be empty.")
-    review: Review | None = Field(
-        default=None, description="What signers said of the motion. Left out where nobody was asked."
-    )
-
-    @model_validator(mode="after")
-    def _reviewed_by_somebody(self) -> Provenance:
+    def __post_init__(self) -> None:
+        """Refuse a standing that nobody gave."""
         if self.standing == "reviewed" and self.review is None:
             raise ValueError("a review of a sign whose standing is 'reviewed'")
-        return self
 
 
-class FormFile(BaseModel):
+# Rows of positions [rad], one for each time, in the order of the joints.
+_Rows = Annotated[list[list[float]], Meta(min_length=1)]
+_Times = Annotated[list[float], Meta(min_length=1)]
+
+
+class FormFile(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """An inflected form of a sign, on the joints of its citation form."""
 
-    model_config = ConfigDict(strict=True, extra="forbid", frozen=True)
-
-    times: list[FiniteFloat] = Field(min_length=1, description="As of the sign [s].")
-    knots: list[list[FiniteFloat]] = Field(min_length=1, description="As of the sign [rad].")
+    times: Annotated[_Times, Meta(description="As of the sign [s].")]
+    knots: Annotated[_Rows, Meta(description="As of the sign [rad].")]
 
 
-class SignFile(BaseModel):
-    """One sign of TEO's look-up table, as its JSON file holds it."""
+class SignFile(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """One sign of a robot's look-up table, as its JSON file holds it."""
 
-    model_config = ConfigDict(
-        strict=True,
-        extra="forbid",
-        frozen=True,
-        title="TEO sign",
-        json_schema_extra={"$schema": "https://json-schema.org/draft/2020-12/schema"},
-    )
-
-    # "schema" is the field's name in the file; pydantic keeps that name for itself.
-    schema_version: Literal[1] = Field(alias="schema", description="Version of this format.")
-    gloss: Gloss = Field(
-        description="Name of the sign: capitals with their accents (NFC), a space written '_'."
-    )
-    language: str = Field(pattern=r"^[a-z]{3}$", description="ISO 639-3 code of the sign language.")
-    robot: str = Field(
-        default=DEFAULT_ROBOT,
-        pattern=r"^[a-z0-9][a-z0-9_]*$",
-        description="Name of the robot whose joints the sign moves; entries of TEO may leave it out.",
-    )
-    kind: Kind = Field(description="A sign of its own, a letter of the manual alphabet, or a number.")
-    handedness: Handedness = Field(description="The hands that make the sign.")
-    joints: list[str] = Field(
-        min_length=1, description="Names of the joints that the sign moves, each once; the others are free."
-    )
-    times: list[FiniteFloat] = Field(
-        min_length=1, description="Time of each knot [s]: the first is 0, each later than the one before."
-    )
-    knots: list[list[FiniteFloat]] = Field(
-        min_length=1,
-        description="A row for each time: the position [rad] of each of 'joints', in its order.",
-    )
-    forms: dict[Inflection, FormFile] = Field(
-        default={},
-        description="Inflected forms beside that citation form, by inflection: '2>1' is from the addressee "
-        "to the signer, the gloss of a place is there. May be left out.",
-    )
-    alternatives: list[list[list[FiniteFloat]]] = Field(
-        default=[],
-        max_length=MAX_ALTERNATIVES,
-        description="Other postures of the same sign that are read as well, of which the planner takes the "
-        "one with the shortest way: each as 'knots', at the same times.",
-    )
-    alternatives_of: str = Field(
-        default="",
-        pattern=f"{_HASH}|^$",
-        description="SHA-256 of the joints, times and knots that 'alternatives' were made for, lower-case "
-        "hexadecimal: of another motion they are not used. Left out without alternatives.",
-    )
+    schema: Annotated[Literal[1], Meta(description="Version of this format.")]
+    gloss: Annotated[
+        Gloss, Meta(description="Name of the sign: capitals with their accents (NFC), a space written '_'.")
+    ]
+    language: Annotated[str, Meta(pattern=r"^[a-z]{3}$", description="ISO 639-3 code of the sign language.")]
+    robot: Annotated[
+        str,
+        Meta(
+            pattern=r"^[a-z0-9][a-z0-9_]*$",
+            description="Name of the robot whose joints the sign moves; entries of TEO may leave it out.",
+        ),
+    ] = DEFAULT_ROBOT
+    kind: Annotated[
+        Kind, Meta(description="A sign of its own, a letter of the manual alphabet, or a number.")
+    ]
+    handedness: Annotated[Handedness, Meta(description="The hands that make the sign.")]
+    joints: Annotated[
+        list[str],
+        Meta(
+            min_length=1,
+            description="Names of the joints that the sign moves, each once; the others are free.",
+        ),
+    ]
+    times: Annotated[
+        _Times, Meta(description="Time of each knot [s]: the first is 0, each later than the one before.")
+    ]
+    knots: Annotated[
+        _Rows,
+        Meta(description="A row for each time: the position [rad] of each of 'joints', in its order."),
+    ]
+    forms: Annotated[
+        dict[Inflection, FormFile],
+        Meta(
+            description="Inflected forms beside that citation form, by inflection: '2>1' is from the "
+            "addressee to the signer, the gloss of a place is there. May be left out."
+        ),
+    ] = field(default_factory=dict)
+    alternatives: Annotated[
+        list[list[list[float]]],
+        Meta(
+            max_length=MAX_ALTERNATIVES,
+            description="Other postures of the same sign that are read as well, of which the planner takes "
+            "the one with the shortest way: each as 'knots', at the same times.",
+        ),
+    ] = field(default_factory=list)
+    alternatives_of: Annotated[
+        str,
+        Meta(
+            pattern="^([0-9a-f]{64})?$",
+            description="SHA-256 of the joints, times and knots that 'alternatives' were made for, "
+            "lower-case hexadecimal: of another motion they are not used. Left out without alternatives.",
+        ),
+    ] = ""
     provenance: Provenance
-    quality: dict[str, FiniteFloat] = Field(
-        description="Figures of how well the sign was captured: name with its unit as last word, value."
-    )
+    quality: Annotated[
+        dict[str, float],
+        Meta(
+            description="Figures of how well the sign was captured: name with its unit as last word, value."
+        ),
+    ]
 
 
 def sign_json_schema() -> dict[str, Any]:
     """JSON Schema (draft 2020-12) of a sign's file."""
-    return SignFile.model_json_schema()
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **msgspec.json.schema(SignFile)}

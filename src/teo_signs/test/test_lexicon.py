@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 import pytest
+from msgspec.structs import replace as changed
 from refusals import refused
 
 from teo_signs.errors import LutError
@@ -76,7 +77,7 @@ def test_a_number_of_too_low_a_standing_is_signed_in_digits_which_are_always_use
     table: Mapping[str, Sign], make_sign: MakeSign
 ) -> None:
     def sketched(sign: Sign) -> Sign:
-        return replace(sign, provenance=sign.provenance.model_copy(update={"standing": "sketched"}))
+        return replace(sign, provenance=changed(sign.provenance, standing="sketched"))
 
     signs = {
         **table,

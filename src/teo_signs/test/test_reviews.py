@@ -11,6 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace as changed
 from refusals import refused
 
 from teo_signs.lexicon import Lexicon
@@ -29,22 +30,19 @@ def sign(make_sign: MakeSign) -> Sign:
     """A sketch in a file's precision."""
     joints = ("FrontalRightElbow", "RightIndexFinger")
     made = make_sign("PERA", [[-0.5, 0.2], [-1.0, 0.3]], (0.0, 0.5), joints=joints)
-    made = replace(made, provenance=made.provenance.model_copy(update={"standing": "sketched"}))
+    made = replace(made, provenance=changed(made.provenance, standing="sketched"))
     return parse_sign(format_sign(made), file="PERA.json")
 
 
 def rated(sign: Sign, *ratings: str | None) -> list[SignRating]:
     """Ratings by as many people: of the sign's motion."""
     return [
-        SignRating.model_validate(
-            {
-                "kind": "sign",
-                "reviewer": f"person {number}",
-                "gloss": sign.gloss,
-                "motion_hash": motion_hash(sign),
-                "rating": rating,
-                "at": NOON,
-            }
+        SignRating(
+            reviewer=f"person {number}",
+            gloss=sign.gloss,
+            motion_hash=motion_hash(sign),
+            rating=rating,
+            at=NOON,
         )
         for number, rating in enumerate(ratings)
     ]
@@ -74,10 +72,10 @@ def test_a_sign_is_reviewed_when_enough_people_find_it_right(
 
 def test_one_person_counts_once_and_with_the_last_word(sign: Sign) -> None:
     first, second, third = rated(sign, "wrong", "right", "right")
-    later = first.model_copy(update={"rating": "right", "at": NOON + datetime.timedelta(hours=1)})
+    later = changed(first, rating="right", at=NOON + datetime.timedelta(hours=1))
     result = judge(sign, [later, second, first, third], day=DAY, rule=Rule(3, 1.0))
     assert (result.reviewers, result.right) == (3, 3)
-    twice = [second, second.model_copy(update={"at": later.at}), third]
+    twice = [second, changed(second, at=later.at), third]
     assert judge(sign, twice, day=DAY, rule=Rule(3, 1.0)).reviewers == 2
 
 
@@ -123,7 +121,7 @@ def test_notes_and_figures_are_no_motion(sign: Sign) -> None:
     noted = replace(
         reviewed,
         quality={"place_error_mm": 3.0},
-        provenance=reviewed.provenance.model_copy(update={"notes": "seen"}),
+        provenance=changed(reviewed.provenance, notes="seen"),
     )
     assert parse_sign(format_sign(noted), file="PERA.json").provenance.standing == "reviewed"
 

@@ -13,6 +13,7 @@ from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
 from typing import Annotated, NamedTuple
 
+import msgspec
 import numpy as np
 import typer
 from rich.console import Console
@@ -150,7 +151,7 @@ def show(
     made_for = f"{sign.language} for {sign.robot}"
     _output.print(f"{sign.gloss}: {sign.kind} of {made_for}, {sign.handedness}, {sign.duration:.2f} s")
     _output.print(f"  file: {path}", markup=False, soft_wrap=True)
-    for name, value in sign.provenance.model_dump().items():
+    for name, value in msgspec.to_builtins(sign.provenance).items():
         _output.print(f"  {name}: {value if value not in (None, '') else '-'}", markup=False)
     for name, figure in sign.quality.items():
         _output.print(f"  {name}: {figure:g}")

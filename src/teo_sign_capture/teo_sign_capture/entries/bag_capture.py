@@ -11,7 +11,6 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from pydantic import TypeAdapter, ValidationError
 from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]  # ships no types
 
 from teo_description.humanoid import DEFAULT_ROBOT
@@ -33,7 +32,7 @@ from teo_signs.errors import LutError
 from teo_signs.look_up_table import held_entry, holding_tables
 from teo_signs.sign import gloss_key
 from teo_signs.sign_file import read_sign, save_sign
-from teo_signs.sign_schema import Gloss, Handedness, Kind, Standing
+from teo_signs.sign_schema import Handedness, Kind, Standing, check_gloss
 from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP
 
 # Hexadecimal digits of SHA-256 that tell one recording from another.
@@ -226,10 +225,9 @@ def check_free(gloss: str, settings: Settings) -> None:
         LutError: "exists", "bad_gloss", or "not_written" if the table cannot be looked at.
     """
     try:
-        TypeAdapter(Gloss).validate_python(gloss_key(gloss))
-    except ValidationError as error:
-        reason = error.errors(include_url=False)[0]["msg"].removeprefix("Value error, ")
-        raise LutError("bad_gloss", f"--gloss: expected {reason}, got {gloss!r}") from error
+        check_gloss(gloss_key(gloss))
+    except ValueError as error:
+        raise LutError("bad_gloss", f"--gloss: expected {error}, got {gloss!r}") from error
     try:
         taken = held_entry(
             holding_tables(settings.table, language=settings.language, robot=settings.robot), gloss

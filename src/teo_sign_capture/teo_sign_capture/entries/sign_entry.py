@@ -11,6 +11,7 @@ from itertools import pairwise
 from types import MappingProxyType
 
 import numpy as np
+from msgspec.structs import replace as changed
 
 from teo_common.arrays import Array
 from teo_description.robot import Robot
@@ -144,7 +145,7 @@ def _accepted(provenance: Provenance, standing: Standing, against: Sequence[Verd
     reasons = "; ".join(objection.message for objection in against)
     though = f"Accepted by a person beyond a gate: {reasons}." if reasons else ""
     notes = " ".join(filter(None, (though, provenance.notes)))
-    return provenance.model_copy(update={"standing": standing, "notes": notes})
+    return changed(provenance, standing=standing, notes=notes)
 
 
 def _played(robot: Robot, whole: Sign) -> tuple[Sign, Playback]:

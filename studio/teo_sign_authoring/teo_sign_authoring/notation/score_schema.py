@@ -12,7 +12,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validat
 from teo_description.humanoid import Side
 from teo_sign_authoring.notation.handshapes import written_shape
 from teo_sign_capture.signing_space import OTHER_HAND, direction, displacement, split_place
-from teo_signs.sign_schema import SOURCE_STANDING_MEANING, Gloss, SourceStanding, Text
+from teo_signs.sign_schema import SOURCE_STANDING_MEANING, SourceStanding, check_gloss
 
 # Part of the hand that is at the place.
 Part = Literal["palm", "fingertips", "index", "thumb", "index_side", "little_side", "back", "wrist"]
@@ -26,6 +26,8 @@ def _checked(check: object) -> AfterValidator:
     return AfterValidator(validate)
 
 
+Gloss = Annotated[str, _checked(check_gloss)]
+Text = Annotated[str, Field(min_length=1)]
 _Shape = Annotated[str, _checked(written_shape)]
 _Direction = Annotated[str, _checked(direction)]
 _Displacement = Annotated[str, _checked(displacement)]

@@ -22,6 +22,7 @@ from threading import Thread
 from typing import Any, Literal
 
 import yaml
+from msgspec.structs import replace as changed
 from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]  # ships no types
 
 from teo_common.atomic_files import write_atomically
@@ -263,9 +264,7 @@ def _made(job: ImportJob, gloss: str, settings: ImportSettings) -> tuple[Compila
                 f"{gloss}: expected a hand at most {_MOST_OFF_PLACE / 10.0:.0f} cm from its place, got "
                 f"{off / 10.0:.0f} cm",
             )
-        provenance = sign.provenance.model_copy(
-            update={"licence": settings.licence, "notes": "; ".join(compilation.losses)}
-        )
+        provenance = changed(sign.provenance, licence=settings.licence, notes="; ".join(compilation.losses))
         return compilation, replace(sign, provenance=provenance)
     raise AssertionError("the last gap returns or raises")
 

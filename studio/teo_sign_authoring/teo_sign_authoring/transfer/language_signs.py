@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import TypeVar
 
 import numpy as np
+from msgspec.structs import replace as changed
 
 from teo_common.arrays import Array
 from teo_description.hand_geometry import hand_table
@@ -135,17 +136,16 @@ class LanguageSigns:
         hands, moments = entry_postures(self._source, entry, self.robot)
         motion = posture_motion(self.robot, entry.gloss, hands, moments)
         humanoid = self.robot.humanoid
-        provenance = entry.provenance.model_copy(
-            update={
-                "standing": _less(entry.provenance.standing),
-                "method": (
-                    f"what the entry for {entry.robot} shows, place by place of the body, brought onto "
-                    f"{humanoid.name} as a score is (lut retarget)"
-                ),
-                "created": datetime.date.today().isoformat(),
-                "description_hash": humanoid.description_hash,
-                "review": None,
-            }
+        provenance = changed(
+            entry.provenance,
+            standing=_less(entry.provenance.standing),
+            method=(
+                f"what the entry for {entry.robot} shows, place by place of the body, brought onto "
+                f"{humanoid.name} as a score is (lut retarget)"
+            ),
+            created=datetime.date.today().isoformat(),
+            description_hash=humanoid.description_hash,
+            review=None,
         )
         return replace(
             entry,
