@@ -33,7 +33,7 @@ def independent(trajectory: Trajectory, segment: int, order: int = 0):
     return BPoly.from_derivatives(trajectory.times[segment : segment + 2], ends).derivative(order)
 
 
-@settings(max_examples=150, deadline=None, derandomize=True)
+@settings(max_examples=60)
 @given(st.integers(0, 2**32), st.lists(st.sampled_from([LINEAR, CUBIC, QUINTIC]), min_size=1, max_size=4))
 def test_positions_velocities_and_accelerations_agree_with_scipy(seed, degrees):
     trajectory = random_trajectory(seed, degrees)
@@ -47,7 +47,7 @@ def test_positions_velocities_and_accelerations_agree_with_scipy(seed, degrees):
                 np.testing.assert_allclose(values, truth, rtol=1e-9, atol=1e-9 / duration**order)
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
+@settings(max_examples=60)
 @given(
     st.integers(0, 2**32),
     st.lists(st.sampled_from([LINEAR, CUBIC, QUINTIC]), min_size=1, max_size=4),
@@ -67,7 +67,7 @@ def test_a_cut_and_joined_trajectory_is_the_same_motion(seed, degrees, begin, le
         )
 
 
-@settings(max_examples=400, deadline=None, derandomize=True)
+@settings(max_examples=200)
 @given(
     st.integers(0, 2**32), st.sampled_from([LINEAR, CUBIC, QUINTIC]), st.floats(-0.05, 0.05), st.booleans()
 )

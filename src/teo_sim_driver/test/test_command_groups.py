@@ -31,11 +31,11 @@ class Robot:
         self.follower, self.home, self.now = follower, home, START
         self.states = []
 
-    def send(self, group, joint, angle, duration=3.0, stamp=0):
+    def send(self, group, joint, angle, duration=3.0, stamp=0, cubic=False):
         joints = GROUPS[group].joints
         goal = [self.home[column(name)] + (angle if name == joint else 0.0) for name in joints]
         still = np.zeros((1, len(joints)))
-        message = trajectory_message(joints, [duration], [goal], still, still, stamp=stamp)
+        message = trajectory_message(joints, [duration], [goal], still, None if cubic else still, stamp=stamp)
         points = check(serialize_message(message), limits=self.follower.limits, rules=Rules(), group=joints)
         return self.follower.take(points, self.now, Source.TOPIC, group)
 
@@ -54,29 +54,26 @@ def robot(new_follower, home):
     return Robot(new_follower(), home)
 
 
-def test_two_limbs_move_at_once_each_to_its_own_end(robot, new_follower, home):
+def test_two_limbs_move_at_once_each_as_it_would_alone_to_its_own_end(robot, new_follower, home):
     left = robot.send("left_arm", LEFT, -0.5)
     robot.run(0.37)
-    right = robot.send("right_arm", RIGHT, -0.7, duration=4.0)
-    both = robot.run(5.0)
-    alone = Robot(new_follower(), home)
+    right = robot.send("right_arm", RIGHT, -0.7, duration=4.0, cubic=True)
+    both = robot.run(3.0)
+    assert left.over
+    assert not right.over
+    assert robot.follower.report().commands == ("right_arm topic",)
+    robot.run(2.0)
+    alone, beside = Robot(new_follower(), home), Robot(new_follower(), home)
     alone.send("left_arm", LEFT, -0.5)
     alone.run(0.37)
-    np.testing.assert_allclose(both[:, column(LEFT)], alone.run(5.0)[:, column(LEFT)], atol=1e-9)
+    beside.run(0.37)
+    beside.send("right_arm", RIGHT, -0.7, duration=4.0, cubic=True)
+    for joint, single in ((LEFT, alone), (RIGHT, beside)):
+        np.testing.assert_allclose(both[:, column(joint)], single.run(3.0)[:, column(joint)], atol=1e-9)
     assert (robot.at(LEFT), robot.at(RIGHT)) == (home[column(LEFT)] - 0.5, home[column(RIGHT)] - 0.7)
-    assert left.over
     assert right.over
     assert (left.preempted_by, right.preempted_by) == (None, None)
     assert robot.follower.mode is Mode.HOLDING
-
-
-def test_a_command_is_over_when_its_own_joints_have_arrived(robot):
-    short = robot.send("left_arm", LEFT, -0.3, duration=2.0)
-    long = robot.send("right_arm", RIGHT, -0.3, duration=4.0)
-    robot.run(2.1)
-    assert short.over
-    assert not long.over
-    assert robot.follower.report().commands == ("right_arm topic",)
 
 
 def test_of_a_command_that_loses_joints_the_others_slow_down_and_hold(robot, limits, home):

@@ -4,7 +4,6 @@ import signal
 import subprocess
 import sys
 import time
-from array import array
 
 import numpy as np
 import pytest
@@ -23,11 +22,10 @@ from simulated_clock import SECOND, SimulatedClock
 from std_msgs.msg import Float64MultiArray, String
 from std_srvs.srv import Trigger
 from teo_sign_msgs.msg import DriverState
-from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+from trajectory_msgs.msg import JointTrajectory
 
 from teo_names import ALL_JOINTS, HOME, LEG_JOINTS, urdf_text
 from teo_sim_driver.node.driver_node import DriverNode
-from teo_sim_driver.parameters import PARAMETERS
 from teo_sim_driver.rules import DriverError
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -66,23 +64,18 @@ def test_a_bad_trajectory_is_refused_with_its_reason_and_a_good_one_then_reaches
     assert bench.said("limited steps") == "0"
 
 
-def test_the_robot_description_and_the_hand_setpoints_reach_a_late_subscriber(bench):
+def test_a_late_subscriber_gets_the_robot_description_and_what_the_hands_are_told(bench, one_way):
     heard, hands = [], []
     bench.client.create_subscription(String, "robot_description", heard.append, LATCHED)
     bench.client.create_subscription(Float64MultiArray, "dextra_setpoints", hands.append, LATCHED)
     bench.until(lambda: heard and hands)
     assert heard[0].data == urdf_text()
-    np.testing.assert_allclose(hands[0].data, [0.0, 10.0 / 3.0, 0.0, 0.0, 0.0, 0.0] * 2, atol=1e-9)
+    at_home = [0.0, 10.0 / 3.0, 0.0, 0.0, 0.0, 0.0] * 2
+    np.testing.assert_allclose(hands[0].data, at_home, atol=1e-9)
     assert [dimension.size for dimension in hands[0].layout.dim] == [2, 6]
-
-
-def test_a_finger_that_moves_is_told_to_the_hand_as_tendon_travel(bench, one_way):
-    hands = []
-    bench.client.create_subscription(Float64MultiArray, "dextra_setpoints", hands.append, LATCHED)
     bench.commands.publish(one_way(joint="RightIndexFinger", angle=np.radians(39.0), duration=4.0))
-    bench.until(lambda: hands and abs(hands[-1].data[8] - 10.0) < 1e-9)  # half of its way
-    others = np.delete(np.subtract(hands[-1].data, [0.0, 10.0 / 3.0, 0.0, 0.0, 0.0, 0.0] * 2), 8)  # from home
-    np.testing.assert_allclose(others, 0.0, atol=1e-9)
+    bench.until(lambda: abs(hands[-1].data[8] - 10.0) < 1e-9)  # half of its tendon's way
+    np.testing.assert_allclose(np.delete(np.subtract(hands[-1].data, at_home), 8), 0.0, atol=1e-9)
 
 
 def test_told_to_stop_it_comes_to_rest_on_the_way_and_takes_nothing_until_re_armed(bench, one_way):
@@ -280,30 +273,26 @@ def test_a_parameter_out_of_range_is_refused_and_a_good_one_takes_effect(bench, 
     bench.until(lambda: bench.diagnostics and bench.said("last refusal code") == "too_many_points")
 
 
-def test_joints_with_mass_execute_a_trajectory(new_bench, one_way):
-    bench = new_bench(parameter_overrides=[Parameter("plant", value="mujoco")])
+def test_parameters_of_the_start_choose_plant_hand_and_rate(new_bench, one_way):
+    given = {"plant": "mujoco", "hand_drive": "spool_1000", "update_rate": 50}
+    bench = new_bench(parameter_overrides=[Parameter(name, value=value) for name, value in given.items()])
+    # Four fifths of what a finger does by default.
+    bench.commands.publish(one_way(joint="RightIndexFinger", angle=np.radians(39.0), duration=3.4))
+    bench.until(lambda: bench.diagnostics and bench.said("last refusal code") == "velocity_limit")
+    assert "RightIndexFinger" in bench.said("last refusal")
+    del bench.states[:]
+    begin = time.monotonic()
     bench.commands.publish(one_way(duration=2.0, angle=-0.2))
+    bench.until(lambda: len(bench.states) > 25)
+    assert time.monotonic() - begin > 0.45
     bench.until(lambda: abs(bench.position("FrontalRightElbow") + 0.2) < 0.005)
-    assert bench.position("FrontalRightElbow") != -0.2  # nobody is where he was told to be to the last digit
+    assert bench.position("FrontalRightElbow") != -0.2, "nobody with mass is where he was told to be"
     bench.until(lambda: bench.mode() == DriverState.MODE_HOLDING)
 
 
 def test_a_plant_that_is_not_known_is_refused(context):
     with pytest.raises(DriverError, match="unknown_plant"):
         DriverNode(context=context, parameter_overrides=[Parameter("plant", value="gazebo")])
-
-
-def test_parameters_may_be_given_at_the_start(new_bench, one_way):
-    drive = Parameter("hand_drive", value="spool_1000")
-    bench = new_bench(parameter_overrides=[Parameter("update_rate", value=50), drive])
-    del bench.states[:]
-    begin = time.monotonic()
-    bench.until(lambda: len(bench.states) > 25)
-    assert time.monotonic() - begin > 0.45
-    # Four fifths of what a finger does by default.
-    bench.commands.publish(one_way(joint="RightIndexFinger", angle=np.radians(39.0), duration=1.875))
-    bench.until(lambda: bench.diagnostics and bench.said("last refusal code") == "velocity_limit")
-    assert "RightIndexFinger" in bench.said("last refusal")
 
 
 @pytest.fixture
@@ -344,47 +333,17 @@ def test_by_a_simulators_clock_the_path_is_executed_in_simulated_time(clock, new
     assert len(np.unique(positions)) > 10
 
 
-def test_every_number_among_the_parameters_has_a_range():
-    for row in PARAMETERS:
-        assert row.description.endswith(".")
-        numbers = row.low is not None and row.high is not None and row.low <= row.default <= row.high
-        assert isinstance(row.default, bool | str) or numbers, row.name
-
-
-def sum_refused(bench):
-    return sum(bench.driver._follower.report().refused.values())
-
-
 def test_states_that_are_lost_or_late_are_seen_so(bench, one_way):
     def inject(name, value):
         assert bench.driver.set_parameters([Parameter(name, value=value)])[0].successful
 
-    inject("fault_state_delay", 0.5)
+    inject("fault_state_delay", 0.2)
     del bench.states[:]
     bench.until(lambda: len(bench.states) > 3)
     now = bench.driver.get_clock().now().nanoseconds
     stamp = bench.states[-1].header.stamp
-    assert now - (stamp.sec * 10**9 + stamp.nanosec) > 0.45e9
+    assert now - (stamp.sec * 10**9 + stamp.nanosec) > 0.18e9
     inject("fault_state_loss", 1.0)
     bench.commands.publish(one_way())
-    bench.until(lambda: bench.driver_states[-1].path_time > 1.0)  # it moves, and nobody hears of it
-    assert len(bench.states) < 100
-    inject("fault_state_loss", 0.0)
-    inject("fault_state_delay", 0.0)
-
-
-def test_garbage_is_survived(bench, one_way):
-    good = one_way(duration=2.0, angle=-0.1)
-    garbage = [JointTrajectory() for _ in range(6)]
-    garbage[1].joint_names = ["", "\x01", "ñandú"]
-    garbage[2].joint_names = list(good.joint_names)
-    garbage[3].points = [JointTrajectoryPoint() for _ in range(3)]
-    garbage[4].joint_names = list(good.joint_names)
-    garbage[4].points = [JointTrajectoryPoint(effort=array("d", [1.0] * 1000)) for _ in range(3)]
-    garbage[5].joint_names = ["AxialNeck"] * 5000
-    before = sum_refused(bench)
-    for i, message in enumerate(garbage):
-        bench.commands.publish(message)
-        bench.until(lambda i=i: sum_refused(bench) == before + i + 1)
-    bench.commands.publish(good)
-    bench.until(lambda: abs(bench.position("FrontalRightElbow") - good.points[-1].positions[13]) < 1e-9)
+    bench.until(lambda: bench.driver_states[-1].path_time > 0.5)  # it moves, and nobody hears of it
+    assert len(bench.states) < 50

@@ -313,25 +313,6 @@ def test_where_it_will_be_is_where_it_then_is(new_follower, swing):
     np.testing.assert_allclose(said[1:], positions[[4, 9, 99]], atol=1e-9)
 
 
-def test_drives_that_did_not_follow_hold_where_they_are(new_follower, home):
-    follower = new_follower()
-    follower.move_rest(home + 0.05)
-    assert (
-        run(follower, START, 0.1)[1] == np.clip(home + 0.05, *(follower.limits.lower, follower.limits.upper))
-    ).all()
-
-
-def test_a_scheduled_trajectory_waits_for_its_time(new_follower, swing, home):
-    follower = new_follower()
-    send(follower, swing(stamp=START + SECOND), START)
-    assert follower.mode is Mode.MOVING
-    now, positions, _ = run(follower, START, 1.0)
-    np.testing.assert_allclose(positions, np.tile(home, (100, 1)), rtol=0.0, atol=1e-12)
-    immediate = new_follower()
-    send(immediate, swing(), START)
-    np.testing.assert_allclose(run(follower, now, 4.5)[1], run(immediate, START, 4.5)[1], atol=1e-9)
-
-
 def test_stop_forgets_a_scheduled_trajectory(new_follower, swing, home):
     follower = new_follower()
     send(follower, swing(stamp=START + SECOND), START)

@@ -43,30 +43,20 @@ def test_every_board_is_told_of_its_axes_in_its_order():
 
 
 @pytest.mark.parametrize(
-    ("topic", "joint", "degrees"),
+    ("board", "joint", "degrees", "heard"),
     [
         # The arm of "hello" and the trunk, as the robot was told them in degrees.
-        ("/teo/rightArm/position_direct", "FrontalRightShoulder", -56.0),
-        ("/teo/rightArm/position_direct", "FrontalRightElbow", -99.6),
-        ("/teo/trunk/position_direct", "FrontalTrunk", 10.0),
+        ("rightArm", "FrontalRightShoulder", -56.0, -56.0),
+        ("trunk", "FrontalTrunk", 10.0, 10.0),
+        # Millimetres of tendon, of which all are wound or half, and degrees of the servo.
+        ("rightHand", "RightIndexFinger", 85.0, 20.0),
+        ("rightHand", "RightThumbFinger", 0.0, 5.0),
+        ("rightHand", "RightHandAbductor", 90.0, 90.0),
     ],
 )
-def test_arms_and_trunk_hear_degrees(topic, joint, degrees):
-    assert as_the_board_hears(told(**{joint: math.radians(degrees)})[topic], joint) == pytest.approx(degrees)
-
-
-@pytest.mark.parametrize(
-    ("joint", "degrees", "setpoint"),
-    [
-        ("RightIndexFinger", 7.0, 0.0),  # a slack tendon [mm]
-        ("RightIndexFinger", 85.0, 20.0),  # all of it wound
-        ("RightThumbFinger", 0.0, 5.0),
-        ("RightHandAbductor", 90.0, 90.0),  # its servo [deg]
-    ],
-)
-def test_hands_hear_millimetres_of_tendon_and_degrees_of_the_servo(joint, degrees, setpoint):
-    heard = told(**{joint: math.radians(degrees)})["/teo/rightHand/position_direct"]
-    assert as_the_board_hears(heard, joint) == pytest.approx(setpoint, abs=1e-9)
+def test_a_board_hears_degrees_and_millimetres_of_tendon(board, joint, degrees, heard):
+    message = told(**{joint: math.radians(degrees)})[f"/teo/{board}/position_direct"]
+    assert as_the_board_hears(message, joint) == pytest.approx(heard, abs=1e-9)
 
 
 def test_a_finger_outside_the_range_of_its_tendon_is_refused():

@@ -130,7 +130,7 @@ class Watch:
 
 
 @pytest.mark.slow
-@settings(max_examples=200, deadline=None, derandomize=True)
+@settings(max_examples=80)
 @given(seed=st.integers(0, 2**32), tightness=st.floats(0.6, 1.0))
 def test_what_is_within_the_limits_is_accepted_and_executed_within_them(
     new_follower, limits, home, seed, tightness
@@ -145,7 +145,7 @@ def test_what_is_within_the_limits_is_accepted_and_executed_within_them(
     assert watch.follower.report().limited_steps == 0
 
 
-@settings(max_examples=150, deadline=None, derandomize=True)
+@settings(max_examples=60)
 @given(seed=st.integers(0, 2**32), tightness=st.floats(1.002, 3.0))
 def test_a_trajectory_over_the_speed_limit_is_refused_for_its_speed(
     new_follower, limits, home, seed, tightness
@@ -157,7 +157,7 @@ def test_a_trajectory_over_the_speed_limit_is_refused_for_its_speed(
     assert refusal.value.code in TOO_FAST
 
 
-@settings(max_examples=50, deadline=None, derandomize=True)
+@settings(max_examples=30)
 @given(seed=st.integers(0, 2**32))
 def test_stopping_at_any_time_breaks_no_limit_and_ends_at_rest(new_follower, limits, home, seed):
     rng = np.random.default_rng(seed)
@@ -179,7 +179,7 @@ def test_stopping_at_any_time_breaks_no_limit_and_ends_at_rest(new_follower, lim
     assert watch.follower.report().limited_steps == 0
 
 
-@settings(max_examples=15, deadline=None, derandomize=True)
+@settings(max_examples=15)
 @given(seed=st.integers(0, 2**32))
 def test_whatever_comes_in_whatever_order_breaks_no_limit(new_follower, limits, seed):
     rng = np.random.default_rng(seed)
@@ -253,7 +253,7 @@ def test_thousands_of_spoilt_messages_never_crash_and_always_get_a_reason(new_fo
     good = swing(duration=0.6, angle=-0.05)
     codes: Counter[str] = Counter()
 
-    @settings(max_examples=300, deadline=None, derandomize=True)
+    @settings(max_examples=150)
     @given(seed=st.integers(0, 2**32), spoilt=st.lists(st.sampled_from(SPOILT), min_size=1, max_size=4))
     def check(seed, spoilt):
         rng = np.random.default_rng(seed)
