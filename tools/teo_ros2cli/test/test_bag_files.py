@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 
@@ -201,8 +202,16 @@ def test_messages_are_played_in_order_though_stored_a_little_beside(tmp_path: Pa
 # Damage
 
 
-def damaged(tmp_path: Path, damage: Callable[[bytes], bytes], *, metadata: bool = True) -> Bag:
-    write_bag(tmp_path / "bag")
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A good bag."""
+    directory = tmp_path_factory.mktemp("whole") / "bag"
+    write_bag(directory)
+    return directory
+
+
+def damaged(whole: Path, tmp_path: Path, damage: Callable[[bytes], bytes], *, metadata: bool = True) -> Bag:
+    shutil.copytree(whole, tmp_path / "bag")
     path = tmp_path / "bag" / "bag_0.mcap"
     path.write_bytes(damage(path.read_bytes()))
     if not metadata:
@@ -211,8 +220,8 @@ def damaged(tmp_path: Path, damage: Callable[[bytes], bytes], *, metadata: bool 
 
 
 @pytest.mark.parametrize("share", [0.2, 0.5, 0.9, 0.999])
-def test_a_truncated_bag_gives_what_is_before_the_cut(tmp_path: Path, share: float) -> None:
-    bag = damaged(tmp_path, lambda data: data[: int(len(data) * share)], metadata=False)
+def test_a_truncated_bag_gives_what_is_before_the_cut(whole: Path, tmp_path: Path, share: float) -> None:
+    bag = damaged(whole, tmp_path, lambda data: data[: int(len(data) * share)], metadata=False)
     assert any("truncated" in problem for problem in bag.problems)
     assert any("metadata.yaml" in problem for problem in bag.problems)
     assert 300 * share - 60 <= bag.metadata.messages <= 300
@@ -228,7 +237,7 @@ def scratched(data: bytes) -> bytes:
 
 
 @pytest.mark.parametrize("seed", range(40))
-def test_any_damage_is_survived(tmp_path: Path, seed: int) -> None:
+def test_any_damage_is_survived(whole: Path, tmp_path: Path, seed: int) -> None:
     dice = random.Random(seed)
 
     def hurt(data: bytes) -> bytes:
@@ -237,7 +246,7 @@ def test_any_damage_is_survived(tmp_path: Path, seed: int) -> None:
             broken[dice.randrange(8, len(broken))] = dice.randrange(256)
         return bytes(broken[: dice.randrange(100, len(broken) + 1)])
 
-    bag = damaged(tmp_path, hurt)
+    bag = damaged(whole, tmp_path, hurt)
     told: list[str] = []
     assert len(list(bag.messages(on_problem=told.append))) == bag.metadata.messages <= 300
     assert bag.problems or bag.metadata.messages == 300

@@ -10,7 +10,6 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from teo_ros2cli.errors import Ros2CliError
 from teo_ros2cli.interfaces import (
-    SEPARATOR,
     InterfaceName,
     definition_lines,
     installed_type_hash,
@@ -25,19 +24,6 @@ def computed_hash(name: str, text: str) -> str:
     store = get_typestore(Stores.EMPTY)
     store.register(get_types_from_msg(text, name))
     return str(store.hash_rihs01(name))
-
-
-def test_a_schema_holds_each_dependency_once() -> None:
-    schema = schema_of("trajectory_msgs/msg/JointTrajectory")
-    assert (schema.name, schema.encoding) == ("trajectory_msgs/msg/JointTrajectory", "ros2msg")
-    headings = [line for line in schema.text.splitlines() if line.startswith("MSG: ")]
-    assert headings == [
-        "MSG: std_msgs/Header",
-        "MSG: builtin_interfaces/Time",
-        "MSG: trajectory_msgs/JointTrajectoryPoint",
-        "MSG: builtin_interfaces/Duration",
-    ]
-    assert schema.text.count(SEPARATOR) == 4
 
 
 def test_every_installed_message_has_a_schema_that_others_can_read_and_a_hash() -> None:

@@ -17,7 +17,8 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from std_srvs.srv import SetBool
 
-# Lines that begin with `$ ros2` are typed; what follows is printed, `…` standing for anything in a line.
+# Lines that begin with `$ ros2` are typed; what follows is printed, `…` standing for the rest of a line, and
+# a status that is not 0.
 TRANSCRIPT = Path(__file__).parent / "golden" / "outputs.txt"
 
 
@@ -39,7 +40,9 @@ def test_outputs_have_the_shape_of_the_transcript(
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     node = graph.node
     latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-    node.create_publisher(String, "text", latched)
+    node.create_publisher(String, "text", latched).publish(String(data="¡hola, TEO!"))
+    pose = JointState(name=["a", "b"], position=[1.0, 2.0])
+    node.create_publisher(JointState, "pose", latched).publish(pose)
     node.create_publisher(String, "_secret", 10)
     node.create_subscription(JointState, "state", lambda _: None, 10)
     node.create_service(SetBool, "switch", lambda _request, response: response)
@@ -54,7 +57,8 @@ def test_outputs_have_the_shape_of_the_transcript(
 
         def is_golden(words: str = words, golden: str = golden, seen: list[str] = seen) -> bool:
             done = ros2_here(*shlex.split(words))
-            seen.append(done.stdout + done.stderr)
+            status = f"exit {done.returncode}\n" if done.returncode else ""
+            seen.append(done.stdout + done.stderr + status)
             return same(seen[-1], golden)
 
         # On a loaded machine a look may come before all has been announced: then another one.

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import functools
 import re
 import signal
 import subprocess
@@ -14,10 +13,8 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
-from trajectory_msgs.msg import JointTrajectory
 
 TRAJECTORY = (
     "{header: {frame_id: base_link}, joint_names: [a, 'b c'], points: [{positions: [0.25, -1e-3], "
@@ -26,26 +23,26 @@ TRAJECTORY = (
 Command = Callable[..., subprocess.CompletedProcess[str]]
 
 
-def latched(depth: int = 1) -> QoSProfile:
-    return QoSProfile(depth=depth, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-
-
-def test_pub_once_waits_for_a_subscription_and_delivers_a_nested_message(graph: Any, start: Any) -> None:
-    running = start("topic", "pub", "--once", "/plan", "trajectory_msgs/msg/JointTrajectory", TRAJECTORY)
-    running.wait_for_line("Waiting for at least 1 matching subscription(s)...")
-    came: list[JointTrajectory] = []
-    graph.node.create_subscription(JointTrajectory, "plan", came.append, 10)
-    graph.wait_until(lambda: came, "the message came")
-    assert running.finish() == 0
-    assert len(came) == 1
-    assert came[0].joint_names == ["a", "b c"]
-    assert list(came[0].points[0].positions) == [0.25, -0.001]
-    assert came[0].points[1].velocities[0] == float("inf")
-    assert "publisher: beginning loop" in running.lines
-    line = running.wait_for_line(
-        "publishing #1: trajectory_msgs.msg.JointTrajectory(header=std_msgs.msg.Header("
+def test_pub_once_waits_for_a_subscription_and_echo_prints_what_it_sends(graph: Any, start: Any) -> None:
+    del graph
+    kind = "trajectory_msgs/msg/JointTrajectory"
+    pub = start("topic", "pub", "--once", "/plan", kind, TRAJECTORY)
+    pub.wait_for_line("Waiting for at least 1 matching subscription(s)...")
+    echo = start("topic", "echo", "--once", "/plan", kind)
+    assert (pub.finish(), echo.finish()) == (0, 0)
+    assert "publisher: beginning loop" in pub.lines
+    sent = "publishing #1: trajectory_msgs.msg.JointTrajectory(header=std_msgs.msg.Header("
+    assert pub.wait_for_line(sent).endswith(")])")
+    points = (
+        "- positions:\n  - 0.25\n  - -0.001\n  velocities: []\n  accelerations: []\n  effort: []\n"
+        "  time_from_start:\n    sec: 1\n    nanosec: 500000000\n"
+        "- positions:\n  - 1.0\n  - 2.0\n  velocities:\n  - .inf\n  - 0.0\n  accelerations: []\n"
+        "  effort: []\n  time_from_start:\n    sec: 0\n    nanosec: 0\n---"
     )
-    assert line.endswith(")])")
+    assert echo.text == (
+        "header:\n  stamp:\n    sec: 0\n    nanosec: 0\n  frame_id: base_link\n"
+        f"joint_names:\n- a\n- b c\npoints:\n{points}"
+    )
 
 
 # A subscription in a process of its own: prints what comes.
@@ -127,59 +124,6 @@ def test_pub_gives_up_waiting_if_told_to(graph: Any, ros2_here: Command) -> None
     done = ros2_here("topic", "pub", "--once", *words)
     assert done.returncode == 1
     assert done.stderr == "Timed out waiting for subscribers: Expected 2 subscribers but only got 0.\n"
-
-
-def test_echo_prints_what_pub_sends(graph: Any, start: Any) -> None:
-    del graph
-    echo = start("topic", "echo", "--once", "/plan", "trajectory_msgs/msg/JointTrajectory")
-    pub = start("topic", "pub", "--once", "/plan", "trajectory_msgs/msg/JointTrajectory", TRAJECTORY)
-    assert (pub.finish(), echo.finish()) == (0, 0)
-    assert echo.text == (
-        "header:\n  stamp:\n    sec: 0\n    nanosec: 0\n  frame_id: base_link\njoint_names:\n- a\n- b "
-        "c\npoints:\n"
-        "- positions:\n  - 0.25\n  - -0.001\n  velocities: []\n  accelerations: []\n  effort: []\n  "
-        "time_from_start:\n"
-        "    sec: 1\n    nanosec: 500000000\n"
-        "- positions:\n  - 1.0\n  - 2.0\n  velocities:\n  - .inf\n  - 0.0\n  accelerations: []\n  effort: "
-        "[]\n"
-        "  time_from_start:\n    sec: 0\n    nanosec: 0\n---"
-    )
-
-
-def test_echo_finds_the_type_and_fits_the_publishers_quality(graph: Any, ros2_here: Command) -> None:
-    publisher = graph.node.create_publisher(String, "description", latched())
-    publisher.publish(String(data="¡hola! " * 30))
-    echo = functools.partial(ros2_here, "topic", "echo", "--once", "description")
-    assert echo("-l", "6").stdout == "data: ¡hola!...\n---\n"
-    assert echo("--full-length").stdout == f"data: '{'¡hola! ' * 30}'\n---\n"
-    assert echo("--field", "data", "-f").stdout == f"{'¡hola! ' * 30}\n---\n"
-    assert echo("--no-str").stdout == "data: '<string length: <210>>'\n---\n"
-    refused = echo("--field", "nothing")
-    assert (refused.returncode, refused.stdout) == (1, "")
-    assert "has no attribute 'nothing'" in refused.stderr
-
-
-def test_echo_in_other_forms(graph: Any, ros2_here: Command) -> None:
-    publisher = graph.node.create_publisher(JointState, "state", latched())
-    publisher.publish(JointState(name=["a", "b"], position=[1.0, 2.0]))
-    echo = functools.partial(ros2_here, "topic", "echo", "--once", "/state")
-    assert echo("--csv", "--filter", "len(m.name) == 2").stdout == "0,0,,a,b,1.0,2.0\n"
-    flow = echo("--flow-style", "--no-arr").stdout
-    assert flow.startswith(
-        "{header: {stamp: {sec: 0, nanosec: 0}, frame_id: ''}, name: '<sequence type: string, l"
-    )
-    assert echo("--field", "position").stdout == "array('d', [1.0, 2.0])\n---\n"
-    assert "Filter 'm.nothing' fails: AttributeError" in echo("--filter", "m.nothing").stderr
-
-
-def test_echo_of_an_unknown_topic_and_after_a_time(graph: Any, ros2_here: Command) -> None:
-    del graph
-    unknown = ros2_here("topic", "echo", "/nothing")
-    assert unknown.returncode == 1
-    assert unknown.stdout == "WARNING: topic [/nothing] does not appear to be published yet\n"
-    assert unknown.stderr == "Could not determine the type for the passed topic\n"
-    silent = ros2_here("topic", "echo", "--once", "--timeout", "0.5", "/nothing", "std_msgs/msg/String")
-    assert (silent.returncode, silent.stdout, silent.stderr) == (0, "", "No message came within 0.5 s\n")
 
 
 @pytest.mark.parametrize(("number", "status"), [(signal.SIGINT, 2), (signal.SIGTERM, 143)])
