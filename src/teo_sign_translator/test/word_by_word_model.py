@@ -6,7 +6,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from teo_sign_translator.morphology import Morphology
+from loaded import morphology
+
 from teo_sign_translator.output.sign_choice import SignChooser
 from teo_sign_translator.output.substitutes import SubstituteLists
 from teo_sign_translator.pipeline.agreement import Agreement
@@ -16,8 +17,6 @@ from teo_sign_translator.pipeline.translator import Translator
 from teo_sign_translator.pointer import Hypothesis, OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
 from teo_sign_translator.text.source_words import SourceWord
-
-MORPHOLOGY = Morphology.load()
 
 
 class WordByWordModel:
@@ -29,7 +28,7 @@ class WordByWordModel:
         self._loses = set(loses)
         self._reverse = reverse
         self._probability = probability
-        self._function_words = FunctionWords.load(MORPHOLOGY.folder / "function_words.tsv")
+        self._function_words = FunctionWords.load(morphology().folder / "function_words.tsv")
 
     def translate(self, words: Sequence[SourceWord], *, beam: int = 1) -> tuple[Hypothesis, ...]:
         kept = [
@@ -40,13 +39,14 @@ class WordByWordModel:
         return (Hypothesis(tuple(reversed(kept) if self._reverse else kept), -1.0),)[:beam]
 
     def translate_all(
-        self, sentences: Sequence[Sequence[SourceWord]], *, beam: int = 1
+        self, sentences: Sequence[Sequence[SourceWord]], *, beam: int = 1, unsaid: object = None
     ) -> tuple[tuple[Hypothesis, ...], ...]:
+        del unsaid
         return tuple(self.translate(words, beam=beam) for words in sentences)
 
 
 def translator_with(model: object) -> Translator:
     """A translator with the package's data around a model."""
-    given = read_given_sentences(MORPHOLOGY.folder)
-    back_end = PointerBackEnd(model, MORPHOLOGY, Completeness.load(), given, Agreement.load())
-    return Translator(back_end, SignChooser(SubstituteLists.load(), MORPHOLOGY))
+    given = read_given_sentences(morphology().folder)
+    back_end = PointerBackEnd(model, morphology(), Completeness.load(), given, Agreement.load())
+    return Translator(back_end, SignChooser(SubstituteLists.load(), morphology()))

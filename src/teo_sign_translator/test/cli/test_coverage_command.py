@@ -54,11 +54,6 @@ def test_a_file_is_counted_as_json(table: Path, tmp_path: Path) -> None:
     assert counted["words"] == sum(counted["showings"].values())
 
 
-def test_a_guess_counts_as_a_sign_if_it_is_good_enough(table: Path) -> None:
-    result = _run("--text", "perro", "--least-standing", "sketched", "--json", table=table)
-    assert json.loads(result.stdout)["signed"] == 1
-
-
 @pytest.mark.parametrize("arguments", [(), ("file.txt", "--text", "Hola")])
 def test_either_a_file_or_a_text_is_wanted(arguments: tuple[str, ...], table: Path) -> None:
     assert _run(*arguments, table=table).exit_code == 2

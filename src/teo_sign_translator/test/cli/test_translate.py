@@ -37,11 +37,6 @@ def test_standard_input_gives_a_line_for_each_line_whatever_happens() -> None:
     assert code == 1
 
 
-def test_blank_lines_are_no_error() -> None:
-    assert _run("--stdin", stdin=b"Hola\n\nHola\n") == (0, "HOLA\n\nHOLA\n", "")
-    assert _run("--stdin", stdin=b"") == (0, "", "")
-
-
 def test_a_file_gives_the_same_as_standard_input(tmp_path: Path) -> None:
     lines = "Hola, me llamo Ana.\n\nПривет\r\nque tal\n".encode() + b"d\xedas\n"
     path = tmp_path / "texts.txt"
@@ -79,12 +74,6 @@ def test_json_holds_everything_one_object_a_line() -> None:
     assert blank == {"text": "", "glosses": "", "sentences": []}
     assert refused["error"]["code"] == "unsignable_text"
     assert broken["error"]["code"] == "broken_encoding"
-
-
-def test_a_text_that_cannot_be_translated_is_refused_with_a_reason() -> None:
-    code, out, err = _run("😀")
-    assert (code, out) == (1, "")
-    assert err.startswith("nothing_to_sign: ")
 
 
 def test_an_unknown_model_is_refused_with_those_available() -> None:

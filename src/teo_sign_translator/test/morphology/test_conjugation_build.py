@@ -8,9 +8,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from refusals import refused
 
-from teo_sign_translator.data_files import data_file
-from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology.conjugation import Conjugations
 from teo_sign_translator.morphology.conjugation_build import (
     Forms,
@@ -21,7 +20,6 @@ from teo_sign_translator.morphology.conjugation_build import (
 from teo_sign_translator.morphology.readings import VERB_TAGS
 
 FOLDER = "mlconjug3/data/conjug_manager/"
-SHIPPED = Conjugations(data_file("morphology/conjugations.tsv"))
 
 
 def six(*endings: str) -> list[list[Any]]:
@@ -79,13 +77,8 @@ def test_a_reflexive_verb_loses_its_pronoun(tmp_path: Path) -> None:
     forms = read_package(package(tmp_path))["quejar"]
     assert forms["V:inf"] == ("quejar",)
     assert forms["V:ger"] == ("quejando",)
-    assert [forms[f"V:imp:{person}"][0] for person in ("2s", "3s", "1p", "2p", "3p")] == [
-        "queja",
-        "queje",
-        "quejemos",
-        "quejad",
-        "quejen",
-    ]
+    imperative = " ".join(forms[f"V:imp:{person}"][0] for person in ("2s", "3s", "1p", "2p", "3p"))
+    assert imperative == "queja queje quejemos quejad quejen"
 
 
 def test_the_file_gives_back_what_was_written(tmp_path: Path) -> None:
@@ -101,9 +94,8 @@ def test_the_file_gives_back_what_was_written(tmp_path: Path) -> None:
 def test_another_file_than_the_package_is_refused(content: bytes, tmp_path: Path) -> None:
     path = tmp_path / "other.whl"
     path.write_bytes(content)
-    with pytest.raises(TranslationError, match="expected the wheel of mlconjug3") as caught:
+    with refused("invalid_data", "expected the wheel of mlconjug3"):
         read_package(path)
-    assert caught.value.code == "invalid_data"
 
 
 def corrected(tmp_path: Path, line: str) -> dict[str, Forms]:
@@ -121,6 +113,5 @@ def test_corrections_replace_a_form_or_a_whole_verb(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("line", ["cantar\tV:nope\tx", "pasar\tV:inf\tpasar", "pasar\tlike\tpesar"])
 def test_a_correction_of_nothing_known_is_refused_with_its_place(line: str, tmp_path: Path) -> None:
-    with pytest.raises(TranslationError, match="line 1: expected") as caught:
+    with refused("invalid_data", "line 1: expected"):
         corrected(tmp_path, line)
-    assert caught.value.code == "invalid_data"

@@ -22,7 +22,6 @@ from std_msgs.msg import String
 from teo_sign_msgs.msg import SignSentence, SignToken, TranslationStatus
 from teo_sign_msgs.srv import ListSigns, Translate
 
-from teo_sign_translator.node.parameters import PARAMETERS
 from teo_sign_translator.node.translator_node import TranslatorNode
 
 PATIENCE = 20.0  # [s] that anything may take on a busy machine
@@ -106,15 +105,8 @@ def test_a_text_becomes_sentences_of_tokens(bench: Bench) -> None:
     bench.type("Hola, me llamo Ana. ¿Qué tal?")
     first, second = bench.wait_for(2)
     assert [token.gloss for token in first.tokens] == ["HOLA", "", "MI", "NOMBRE", "A", "N", "A"]
-    assert [token.kind for token in first.tokens] == [
-        SignToken.KIND_LEXICAL,
-        SignToken.KIND_PAUSE,
-        SignToken.KIND_LEXICAL,
-        SignToken.KIND_LEXICAL,
-        SignToken.KIND_LETTER,
-        SignToken.KIND_LETTER,
-        SignToken.KIND_LETTER,
-    ]
+    word, pause, letter = SignToken.KIND_LEXICAL, SignToken.KIND_PAUSE, SignToken.KIND_LETTER
+    assert [token.kind for token in first.tokens] == [word, pause, word, word, letter, letter, letter]
     assert list(first.tokens[4].source_words) == ["Ana"]
     assert [token.gloss for token in second.tokens] == ["TÚ", "BIEN"]
     assert (first.type, second.type) == (SignSentence.TYPE_STATEMENT, SignSentence.TYPE_WH_QUESTION)
@@ -146,38 +138,24 @@ def test_the_service_translates_without_publishing_or_says_why_it_refuses(bench:
     assert response.success
     assert response.code == response.message == ""
     assert [token.gloss for token in response.sentences[0].tokens] == ["MI", "NOMBRE", "A", "N", "A"]
-    for text, code in (
-        ("", "empty_text"),
-        ("мир", "unsignable_text"),
-        ("Hola. " * 101, "too_many_sentences"),
-    ):
-        response = bench.ask(text)
-        assert (response.success, response.code, list(response.sentences)) == (False, code, [])
-        assert response.message
+    refused = bench.ask("Hola. " * 101)
+    assert (refused.success, refused.code, list(refused.sentences)) == (False, "too_many_sentences", [])
+    assert refused.message
     bench.type("Hola")
     assert [sentence.text for sentence in bench.wait_for(1)] == ["Hola"]
 
 
-def test_parameters_are_described_and_values_out_of_range_refused(bench: Bench) -> None:
-    for row in PARAMETERS:
-        assert bench.node.describe_parameter(row.name).description
-    for name, value in (
-        ("model", "gpt"),
-        ("model", 3),
-        ("min_confidence", 1.5),
-        ("max_sentences", 0),
-        ("max_sentences", 101),
-        ("beam_width", 0),
-        ("queue_size", 0),
-        ("substitutes", "all"),
-        ("signs_file", "/nowhere"),
-        ("autostart", False),
+def test_values_out_of_range_are_refused_with_what_there_is(bench: Bench) -> None:
+    for name, value, said in (
+        ("model", "gpt", "lstm256"),
+        ("max_sentences", 101, ""),
+        ("substitutes", "all", "paraphrase"),
+        ("signs_file", "/nowhere", "/nowhere"),
+        ("autostart", False, ""),
     ):
         (refused,) = bench.node.set_parameters([Parameter(name, value=value)])
         assert not refused.successful, name
-        assert refused.reason
-    (refused,) = bench.node.set_parameters([Parameter("model", value="gpt")])
-    assert "lstm256" in refused.reason
+        assert refused.reason and said in refused.reason
 
 
 def test_parameters_take_effect(bench: Bench, tmp_path: Path) -> None:

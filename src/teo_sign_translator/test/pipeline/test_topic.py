@@ -7,15 +7,13 @@ from __future__ import annotations
 from itertools import pairwise
 
 import pytest
+from loaded import translator
 
 from teo_sign_translator.output.translation import printed
-from teo_sign_translator.pipeline.translator import Translator
-
-TRANSLATOR = Translator.load()
 
 
 def glosses(text: str) -> list[str]:
-    return [printed(sentence.tokens) for sentence in TRANSLATOR.translate(text).sentences]
+    return [printed(sentence.tokens) for sentence in translator().translate(text).sentences]
 
 
 @pytest.mark.parametrize(

@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 import safetensors.numpy
+from refusals import refused
 from small_language import fit_small, glosses_of, read, sentence_pairs, small_config, small_model
 
 from teo_sign_training.fitting.fitting import Fit
-from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.model_files import available_models
 from teo_sign_translator.pointer import load_sentence_model
 from teo_sign_translator.pointer.config import POINTER
@@ -81,26 +81,20 @@ def test_a_file_that_lacks_a_network_is_refused(trained: Fit, tmp_path: Path) ->
     save_sentence_model(
         "half", tmp_path, config=config, vocabulary=trained.vocabulary, weights=weights, card={}
     )
-    with pytest.raises(TranslationError, match="expected finite weights") as error:
+    with refused("invalid_model", "expected finite weights"):
         load_sentence_model("half", tmp_path)
-    assert error.value.code == "invalid_model"
 
 
 @pytest.mark.parametrize("name", ["large", "../small", ""])
 def test_an_unknown_model_is_refused_with_those_available(trained: Fit, tmp_path: Path, name: str) -> None:
     _save(trained, tmp_path)
-    with pytest.raises(TranslationError, match="small") as error:
+    with refused("unknown_model", "small"):
         load_sentence_model(name, tmp_path)
-    assert error.value.code == "unknown_model"
 
 
 def _cut(directory: Path) -> None:
     path = directory / "small.safetensors"
     path.write_bytes(path.read_bytes()[:-100])
-
-
-def _no_weights(directory: Path) -> None:
-    (directory / "small.safetensors").write_bytes(b"")
 
 
 def _no_card(directory: Path) -> None:
@@ -130,22 +124,17 @@ def _not_a_number(directory: Path) -> None:
     "damage",
     [
         _cut,
-        _no_weights,
         _no_card,
         _not_a_number,
         _spoil("{"),
-        _spoil("[]"),
         _card(schema=99),
         _card(network={"hidden": 16}),
         _card(network={"width": 16}),
-        _card(network=None),
         _card(lexis={}),
-        _card(lexis=[]),
     ],
 )
 def test_a_damaged_model_is_refused(trained: Fit, tmp_path: Path, damage: Callable[[Path], None]) -> None:
     _save(trained, tmp_path)
     damage(tmp_path)
-    with pytest.raises(TranslationError) as error:
+    with refused("invalid_model"):
         load_sentence_model("small", tmp_path)
-    assert error.value.code == "invalid_model"

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import pytest
+from refusals import refused
 
-from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.text.cleaning import clean
 from teo_sign_translator.text.reading import SentenceType, is_negated, read, sentence_type
 from teo_sign_translator.text.rules import TextRules
-
-NUMBERS = TextRules.load().numbers
 
 
 @pytest.mark.parametrize(
@@ -20,8 +18,6 @@ NUMBERS = TextRules.load().numbers
         ("a\u00a0b\tc", "a b c"),
         ("Ｈｏｌａ１２", "Hola12"),
         ("ﬁn m²", "fin m2"),
-        ("½", "1/2"),
-        ("٣", "3"),
         ("co\u00adche\u200b", "coche"),
         ("1º ª", "1º ª"),
         ("a\r\nb\u2028c", "a\nb\nc"),
@@ -36,9 +32,8 @@ def test_cleaning_reports_control_characters() -> None:
 
 
 def test_cleaning_refuses_lost_characters() -> None:
-    with pytest.raises(TranslationError) as error:
+    with refused("broken_encoding"):
         clean("d\udced")
-    assert error.value.code == "broken_encoding"
 
 
 def _words(text: str) -> list[list[str]]:
@@ -52,16 +47,13 @@ def _words(text: str) -> list[list[str]]:
         ("Ana ¿quién es Ana?", [["Ana"], ["quién", "es", "Ana"]]),
         ("El Sr. Pérez y J. Gil", [["El", "Sr.", "Pérez", "y", "J", "Gil"]]),
         ("uc3m.es", [["uc3m.es"]]),
-        ("Hola.Adiós", [["Hola"], ["Adiós"]]),
         ("Bueno... pues sí", [["Bueno"], ["pues", "sí"]]),
         ("ex-marido d'Ors", [["ex", "marido", "d", "Ors"]]),
         ("son 3,5 € o 1.000,50 € o 5%", [["son", "3,5", "€", "o", "1.000,50", "€", "o", "5", "%"]]),
         ("el 12.10.2024 a las 10:30", [["el", "12", "10", "2024", "a", "las", "10:30"]]),
         ("treinta y un años y dos mil", [["treinta y un", "años", "y", "dos mil"]]),
-        ("un 1º", [["un", "1º"]]),
         ("clase 1ºA", [["clase", "1º", "A"]]),
         ("", []),
-        ("...", []),
     ],
 )
 def test_reading_finds_clauses_and_words(text: str, words: list[list[str]]) -> None:
@@ -90,9 +82,7 @@ def test_what_only_looks_like_laughter_is_read_as_it_is_typed(word: str) -> None
     [
         ("Hola, adiós.", [(",", False), (".", True)]),
         ("¿Qué?! Sí", [("?", True), ("", True)]),
-        ("¡Qué!? Sí", [("?", True), ("", True)]),
         ("Bueno… Sí", [(".", True), ("", True)]),
-        ("bueno… sí", [(",", False), ("", True)]),
         ("Hola, 😀. Sí", [(".", True), ("", True)]),
         ("Hola\nsí", [("", True), ("", True)]),
     ],
@@ -104,50 +94,33 @@ def test_reading_finds_where_sentences_end(text: str, ends: list[tuple[str, bool
 @pytest.mark.parametrize(
     ("words", "value", "used"),
     [
-        ("cero", 0, 1),
-        ("uno", 1, 1),
         ("un", 0, 0),
         ("una casa", 0, 0),
-        ("quince", 15, 1),
         ("dieciseis años", 16, 1),
-        ("veintiun", 21, 1),
-        ("treinta y cinco", 35, 3),
         ("treinta y pico", 30, 1),
-        ("cien", 100, 1),
-        ("ciento uno", 101, 2),
         ("quinientas veinte", 520, 2),
-        ("novecientos noventa y nueve mil novecientos noventa y nueve", 999_999, 9),
-        ("mil", 1000, 1),
-        ("dos mil veinticuatro", 2024, 3),
         ("siete ocho", 7, 1),
-        ("hola", 0, 0),
         ("", 0, 0),
     ],
 )
 def test_number_words_are_read(words: str, value: int, used: int) -> None:
-    assert NUMBERS.read_words(words.split()) == (value, used)
+    assert TextRules.load().numbers.read_words(words.split()) == (value, used)
 
 
 @pytest.mark.parametrize(
     ("text", "kind"),
     [
         ("¿Vienes?", SentenceType.YES_NO_QUESTION),
-        ("Vienes?", SentenceType.YES_NO_QUESTION),
         ("¿Dónde vives?", SentenceType.WH_QUESTION),
-        ("¿de donde eres?", SentenceType.WH_QUESTION),
         ("¿Y tú cómo estás?", SentenceType.WH_QUESTION),
         ("¿Sabes cómo se llama?", SentenceType.YES_NO_QUESTION),
         ("¿Haces qué?", SentenceType.WH_QUESTION),
-        ("Hola, ¿cuándo vienes?", SentenceType.WH_QUESTION),
-        ("donde vives", SentenceType.WH_QUESTION),
         ("como estas", SentenceType.WH_QUESTION),
         ("cuando vienes", SentenceType.WH_QUESTION),
         ("Cuando llegue, te llamo", SentenceType.STATEMENT),
         ("Como pan", SentenceType.STATEMENT),
-        ("Que tengas buen día", SentenceType.STATEMENT),
         ("¡Qué bien!", SentenceType.EXCLAMATION),
         ("¡¿Vienes?!", SentenceType.YES_NO_QUESTION),
-        ("Vengo.", SentenceType.STATEMENT),
     ],
 )
 def test_the_type_of_a_sentence(text: str, kind: SentenceType) -> None:
@@ -159,11 +132,8 @@ def test_the_type_of_a_sentence(text: str, kind: SentenceType) -> None:
     [
         ("No vengo", True),
         ("Nooooo vengo", True),
-        ("Nunca vengo", True),
-        ("No hay nadie", True),
         ("Vienes, ¿no?", False),
         ("De nada", False),
-        ("Vengo", False),
         ("Una nota", False),
     ],
 )
