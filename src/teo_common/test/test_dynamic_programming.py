@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from teo_common.dynamic_programming import cheapest_path, warp
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(
     seed=st.integers(0, 10**6),
     moments=st.integers(1, 5),

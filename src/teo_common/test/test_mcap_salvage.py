@@ -52,31 +52,6 @@ def test_only_the_topics_asked_for_come_and_early_chunks_are_left_out(tmp_path: 
     assert list(salvage(tmp_path / "a.mcap", McapContent(), topics=[])) == []
 
 
-@pytest.mark.parametrize("share", [0.05, 0.3, 0.6, 0.9])
-def test_a_file_that_was_cut_off_gives_the_whole_chunks_before_the_cut(tmp_path: Path, share: float) -> None:
-    written = write(tmp_path / "a.mcap")
-    data = (tmp_path / "a.mcap").read_bytes()
-    (tmp_path / "a.mcap").write_bytes(data[: int(len(data) * share)])
-    content = McapContent()
-    got = list(salvage(tmp_path / "a.mcap", content))
-    assert got == written[: len(got)]
-    assert len(got) % CHUNK == 0
-    assert COUNT * share - CHUNK <= len(got) < COUNT
-    assert not content.complete
-    assert content.fault
-
-
-def test_a_damaged_chunk_is_left_out_and_counted(tmp_path: Path) -> None:
-    written = write(tmp_path / "a.mcap")
-    data = bytearray((tmp_path / "a.mcap").read_bytes())
-    place = data.index(written[CHUNK + 7].data)
-    data[place : place + 20] = bytes(byte ^ 0x55 for byte in data[place : place + 20])
-    (tmp_path / "a.mcap").write_bytes(data)
-    content = McapContent()
-    assert list(salvage(tmp_path / "a.mcap", content)) == written[:CHUNK] + written[2 * CHUNK :]
-    assert (content.complete, content.damaged_chunks) == (True, 1)
-
-
 @pytest.mark.parametrize("bytes_", [b"", b"\x89MCAP", b"SQLite format 3\x00" * 10])
 def test_what_does_not_begin_as_mcap_is_refused(tmp_path: Path, bytes_: bytes) -> None:
     (tmp_path / "a.mcap").write_bytes(bytes_)

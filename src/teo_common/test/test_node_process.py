@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import sys
+from importlib.metadata import distribution
 
 import pytest
 
@@ -65,12 +66,20 @@ except ValueError as error:
         ("teo_skeleton_retriever", "retriever_node", "detector ("),
     ],
 )
-def test_every_node_has_help_and_does_not_run_for_it(package: str, executable: str, parameter: str) -> None:
-    command = ["ros2", "run", package, executable, "--help"]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=60.0, check=True)
-    assert done.stdout.startswith(f"usage: {executable} [--ros-args -p PARAMETER:=VALUE")
-    assert parameter in done.stdout
-    assert not done.stderr
+def test_every_node_has_help_and_does_not_run_for_it(
+    package: str,
+    executable: str,
+    parameter: str,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setattr("sys.argv", [executable, "--help"])
+    (point,) = distribution(package).entry_points.select(name=executable)
+    point.load()()
+    said = capsys.readouterr()
+    assert said.err == ""
+    assert said.out.startswith(f"usage: {executable} [--ros-args -p PARAMETER:=VALUE")
+    assert parameter in said.out
 
 
 @pytest.mark.parametrize("told", [signal.SIGINT, signal.SIGTERM])
