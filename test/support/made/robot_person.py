@@ -7,6 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
+from teo_sign_capture.retarget.hand_goals import HandGoals
 from teo_sign_capture.tracks.skeleton_track import Keypoints, in_body_axes
 
 FINGERS = ("Thumb", "Index", "Middle", "Ring", "Pinky")
@@ -86,3 +87,18 @@ def mirrored_points(points):
 
 
 JOINTS = RIGHT_ARM + RIGHT_HAND + LEFT_ARM + LEFT_HAND
+
+
+def goals_of(chain, arms, *, local=(0.0, 0.0, 0.0), shift=(0.0, 0.0, 0.0), contact=1.0):
+    """What a hand wants that is, but for a shift [m], where an arm has it."""
+    poses, local = chain.poses(arms), np.broadcast_to(local, (len(arms), 3))
+    upper, fore = poses.origins[:, 3] - chain.shoulder, poses.origins[:, 5] - poses.origins[:, 3]
+    return HandGoals(
+        local=local,
+        place=poses.points(local) + np.array(shift),
+        contact=np.full(len(arms), contact),
+        palm=poses.rotation[:, :, 2],
+        fingers=poses.rotation[:, :, 0],
+        upper_arm=upper / np.linalg.norm(upper, axis=1, keepdims=True),
+        fore_arm=fore / np.linalg.norm(fore, axis=1, keepdims=True),
+    )

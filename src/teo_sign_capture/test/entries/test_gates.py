@@ -1,7 +1,5 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Which captured signs are refused, and what accepting one costs it."""
-
 from __future__ import annotations
 
 from collections.abc import Callable

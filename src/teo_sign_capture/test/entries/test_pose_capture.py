@@ -1,7 +1,5 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""A real clip on its way into a table."""
-
 from __future__ import annotations
 
 from importlib import resources

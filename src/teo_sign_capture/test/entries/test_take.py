@@ -1,13 +1,12 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""One demonstration on TEO: where the sign is, and what no sign can be made of."""
-
 from __future__ import annotations
 
 import numpy as np
 import pytest
 from made_bags import OUT, REST, SIGN, signing
 from made_tracks import HANGING, Move, lose, make_track, path
+from refusals import refused
 
 from teo_description.robot import Robot
 from teo_names import joint_limits
@@ -16,11 +15,6 @@ from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_signs.errors import LutError
 
 FRAMES = 2.0 / 30.0
-
-
-@pytest.fixture(scope="module")
-def robot() -> Robot:
-    return Robot.load()
 
 
 @pytest.fixture(scope="module")
@@ -60,16 +54,14 @@ def test_times_are_of_the_recording_where_a_part_of_it_is_looked_at(robot: Robot
     "cut", [Cut(start=-1.0), Cut(end=9.0), Cut(start=2.0, end=1.0), Cut(start=1.001, end=1.002)]
 )
 def test_a_cut_outside_the_recording_is_refused(robot: Robot, cut: Cut) -> None:
-    with pytest.raises(LutError) as error:
+    with refused("outside_recording"):
         capture_take(robot, signing(), cut=cut)
-    assert error.value.code == "outside_recording"
 
 
-@pytest.mark.parametrize("rate", [2.0, 5.0, 10.0])
+@pytest.mark.parametrize("rate", [2.0, 10.0])
 def test_too_few_frames_are_refused_with_how_many_there_are(robot: Robot, rate: float) -> None:
-    with pytest.raises(LutError, match=f"12 frames a second or more in the sign, got {rate:.0f}") as error:
+    with refused("few_frames", f"12 frames a second or more in the sign, got {rate:.0f}"):
         capture_take(robot, signing(rate=rate))
-    assert error.value.code == "few_frames"
 
 
 def test_a_hand_that_is_held_up_signs_in_a_part_of_the_recording_too(robot: Robot) -> None:
@@ -97,16 +89,8 @@ def test_a_hand_that_is_lost_shortly_is_filled_in_and_said(robot: Robot) -> None
 
 
 def test_a_hand_that_is_lost_for_long_is_refused_with_when(robot: Robot) -> None:
-    with pytest.raises(LutError, match=r"right hand in view .* lost from 1\.3.* to 1\.7") as error:
+    with refused("hand_lost", r"right hand in view .* lost from 1\.3.* to 1\.7"):
         capture_take(robot, lose(lose(signing(), "right_hand", 1.2, 1.75), "body", 1.3, 1.7))
-    assert error.value.code == "hand_lost"
-
-
-def test_a_hand_that_is_hidden_keeps_its_shape_if_its_wrist_is_seen(robot: Robot) -> None:
-    whole, hidden = signing(noise=0.0), lose(signing(noise=0.0), "right_hand", 1.2, 1.75)
-    found = capture_take(robot, hidden).track.right_hand.positions
-    truth = capture_take(robot, whole).track.right_hand.positions
-    assert np.abs(found - truth).max() < 0.02
 
 
 def test_a_hand_that_is_found_late_has_the_shape_in_which_it_is_found(robot: Robot) -> None:
@@ -115,10 +99,6 @@ def test_a_hand_that_is_found_late_has_the_shape_in_which_it_is_found(robot: Rob
     assert np.abs(found.track.right_hand.positions - truth.track.right_hand.positions).max() < 0.03
     with pytest.raises(LutError, match=r"lost from 1\.0"):
         capture_take(robot, lose(signing(noise=0.0), "right_hand", 0.0, 1.8))
-
-
-def test_the_other_hand_may_be_lost(robot: Robot) -> None:
-    assert capture_take(robot, lose(signing(), "left_hand", 0.0, 3.2)).span.handedness == "right"
 
 
 @pytest.mark.parametrize("lost_from", [0.7, 1.25])
@@ -133,9 +113,8 @@ def test_a_hand_that_never_rises_into_the_signing_space_takes_no_part(robot: Rob
         return lose(track, "left_hand", lost_from, 2.3)
 
     assert capture_take(robot, beside((0.16, 0.26, -0.36))).span.handedness == "right"
-    with pytest.raises(LutError, match="left hand in view") as error:
+    with refused("hand_lost", "left hand in view"):
         capture_take(robot, beside((0.25, 0.26, -0.10), (0.30, 0.30, 0.15)))
-    assert error.value.code == "hand_lost"
 
 
 def test_behind_the_head_is_another_place_than_before_it(robot: Robot) -> None:
@@ -152,10 +131,3 @@ def test_a_hand_too_near_to_its_shoulder_is_at_its_own_place_for_who_watches(rob
     assert np.nanmax(motion.place_error[:, 0]) > 0.15
     assert np.nanmean(motion.wrong_place[:, 0]) == 0.0
     assert np.nanmean(motion.same_zone[:, 0]) > 0.9
-
-
-@pytest.mark.slow
-def test_hands_can_be_named(robot: Robot) -> None:
-    both = capture_take(robot, signing(moves=[(0.5, 1.1, OUT), (1.8, 2.4, REST)]), handedness="both")
-    assert any(joint.startswith("FrontalLeft") for joint in both.motion.joints)
-    assert np.isfinite(both.motion.place_error).all()

@@ -1,7 +1,5 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Keypoints of films: who is followed where there are several people."""
-
 from __future__ import annotations
 
 from collections.abc import Sequence

@@ -1,13 +1,10 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Files of pose-format, whole and damaged."""
-
 from __future__ import annotations
 
 import io
 import math
 from collections.abc import Sequence
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
@@ -24,43 +21,27 @@ from typer.testing import CliRunner, Result
 
 from teo_common.arrays import Array
 from teo_lut_executor.cli.lut import app
-from teo_sign_authoring.alphabet.letter_clips import load_letter_clips
 from teo_sign_capture.recordings import pose_file
 from teo_sign_capture.recordings.pose_file import read_pose_file
 from teo_sign_capture.recordings.skeleton_bag import read_skeletons
-from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 from teo_signs.errors import LutError
 from teo_skeleton_retriever.lifting.clip import PoseClip
 
 SHIPPED = Path(__file__).resolve().parents[4] / "bags" / "signer_d435"
 # MediaPipe's names, as its documentation gives them.
-SIDED = (
-    "SHOULDER",
-    "ELBOW",
-    "WRIST",
-    "PINKY",
-    "INDEX",
-    "THUMB",
-    "HIP",
-    "KNEE",
-    "ANKLE",
-    "HEEL",
-    "FOOT_INDEX",
-)
+ARM = ("SHOULDER", "ELBOW", "WRIST", "PINKY", "INDEX", "THUMB")
+LEG = ("HIP", "KNEE", "ANKLE", "HEEL", "FOOT_INDEX")
 POSE = (
     "NOSE",
     *(f"{side}_EYE{part}" for side in ("LEFT", "RIGHT") for part in ("_INNER", "", "_OUTER")),
     *("LEFT_EAR", "RIGHT_EAR", "MOUTH_LEFT", "MOUTH_RIGHT"),
-    *(f"{side}_{name}" for name in SIDED for side in ("LEFT", "RIGHT")),
+    *(f"{side}_{name}" for name in (*ARM, *LEG) for side in ("LEFT", "RIGHT")),
 )
+FINGERS = ("INDEX_FINGER", "MIDDLE_FINGER", "RING_FINGER", "PINKY")
 HAND = (
     "WRIST",
     *(f"THUMB_{name}" for name in ("CMC", "MCP", "IP", "TIP")),
-    *(
-        f"{f}_{j}"
-        for f in ("INDEX_FINGER", "MIDDLE_FINGER", "RING_FINGER", "PINKY")
-        for j in ("MCP", "PIP", "DIP", "TIP")
-    ),
+    *(f"{finger}_{joint}" for finger in FINGERS for joint in ("MCP", "PIP", "DIP", "TIP")),
 )
 HANDS = {"LEFT_HAND_LANDMARKS": HAND, "RIGHT_HAND_LANDMARKS": HAND}
 HOLISTIC = {"POSE_LANDMARKS": POSE, "FACE_LANDMARKS": tuple(map(str, range(478))), **HANDS}
@@ -160,16 +141,13 @@ def test_every_variant_of_the_components_is_read_alike(
 
 
 def openpose(frames: int = 5) -> tuple[list[PoseHeaderComponent], Array]:
-    names = {component.name: component.points for component in OpenPose_Components}
-    rows = []
-    for component, its in names.items():
-        for index, name in enumerate(its):
-            if component == "pose_keypoints_2d":
-                side = {"R": -1.0, "L": 1.0}.get(name[0], 0.0)
-                y = {"Shoulder": 200.0, "Elbow": 330.0, "Wrist": 250.0}.get(name[1:], 100.0)
-                rows.append((320.0 + 80.0 * side, y))
-            else:
-                rows.append((200.0 + index, 250.0 - index))
+    def place(component: str, index: int, name: str) -> tuple[float, float]:
+        if component != "pose_keypoints_2d":
+            return 200.0 + index, 250.0 - index
+        height = {"Shoulder": 200.0, "Elbow": 330.0, "Wrist": 250.0}.get(name[1:], 100.0)
+        return 320.0 + 80.0 * {"R": -1.0, "L": 1.0}.get(name[0], 0.0), height
+
+    rows = [place(one.name, *point) for one in OpenPose_Components for point in enumerate(one.points)]
     return list(OpenPose_Components), np.tile(np.array(rows), (frames, 1, 1, 1))
 
 
@@ -204,34 +182,18 @@ def test_points_of_confidence_zero_are_lost(tmp_path: Path) -> None:
     assert clip.right_hand.seen[[0, 1, 2, 4, 5, 6, 7]].all()
 
 
-def two_people() -> tuple[Array, Array]:
-    one = person()
-    other = one + np.array([50.0, 0.0, 0.0])
-    return np.concatenate([one, other], axis=1), np.ones((8, 2, one.shape[2]))
-
-
-def test_of_several_people_one_must_be_named(tmp_path: Path) -> None:
-    data, confidence = two_people()
+def test_of_several_people_one_must_be_named_and_an_empty_place_is_nobody(tmp_path: Path) -> None:
+    data = np.concatenate([person(), person() + np.array([50.0, 0.0, 0.0])], axis=1)
+    confidence = np.ones(data.shape[:3])
     path = write(tmp_path / "two.pose", HOLISTIC, data, confidence)
     assert code_of(path) == "several_people"
     assert read_pose_file(path, person=1).body.places[0, 5, 1] == pytest.approx(450.0)
     assert code_of(path, person=2) == "no_person"
     assert code_of(path, person=-1) == "no_person"
-
-
-def test_an_empty_place_for_a_person_is_no_person(tmp_path: Path) -> None:
-    data, confidence = two_people()
     confidence[:, 1] = 0.0
     assert read_pose_file(write(tmp_path / "one.pose", HOLISTIC, data, confidence)).rate == 25.0
     confidence[:] = 0.0
     assert code_of(write(tmp_path / "none.pose", HOLISTIC, data, confidence)) == "no_person"
-
-
-def test_unknown_layouts_are_refused_with_what_is_known(tmp_path: Path) -> None:
-    path = write(tmp_path / "other.pose", {"BODY_135": ("Nose", "LEye", "REye")})
-    assert code_of(path) == "unknown_layout"
-    with pytest.raises(LutError, match=r"MediaPipe Holistic.*OpenPose.*BODY_135"):
-        read_pose_file(path)
 
 
 @pytest.mark.parametrize(
@@ -241,6 +203,7 @@ def test_unknown_layouts_are_refused_with_what_is_known(tmp_path: Path) -> None:
         ("too_short", {"data": person(0)}),
         ("too_short", {"data": person(1)}),
         ("non_finite", {"data": HOLED}),
+        ("unknown_layout", {"components": {"BODY_135": ("Nose", "LEye", "REye")}}),
         ("unknown_layout", {"components": {"POSE_LANDMARKS": POSE, "RIGHT_HAND_LANDMARKS": HAND[:15]}}),
         ("no_hand", {"components": {"POSE_LANDMARKS": POSE}}),
         ("no_torso", {"components": {"POSE_LANDMARKS": POSE[13:17], **HANDS}}),
@@ -253,7 +216,7 @@ def test_a_clip_of_which_no_sign_can_be_made_is_refused(
     assert code_of(write(tmp_path / "bad.pose", **made)) == code
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", range(4))
 def test_points_that_are_no_persons_are_called_so(tmp_path: Path, seed: int) -> None:
     """Whichever way round the pairs of them happen to be."""
     places = np.random.default_rng(seed).uniform(0.0, 480.0, person(40).shape)
@@ -268,7 +231,7 @@ def test_shoulders_that_a_detector_confused_are_not_a_person_from_behind(tmp_pat
     assert read_pose_file(write(tmp_path / "confused.pose", HOLISTIC, data)).body.seen.any()
 
 
-@pytest.mark.parametrize("turn", range(0, 360, 40))
+@pytest.mark.parametrize("turn", (0, 50, 130, 180, 230, 310))
 def test_who_turns_the_back_to_the_camera_is_refused(tmp_path: Path, turn: float) -> None:
     """By the signer's skeleton turned on the spot; sideways, from 70 to 110 deg, is left to chance."""
     truth = read_skeletons(SHIPPED, topic="/truth/skeletons").between(0.0, 2.0)
@@ -283,7 +246,7 @@ def test_who_turns_the_back_to_the_camera_is_refused(tmp_path: Path, turn: float
     file.write_bytes(pose_file.pose_file(15.0, np.nan_to_num(seen), (640, 480)))
     if abs(turn - 180.0) <= 70.0:
         assert code_of(file) == "seen_from_behind"
-    elif abs(turn - 180.0) >= 110.0:
+    else:
         assert read_pose_file(file).body.seen.any()
 
 
@@ -299,7 +262,7 @@ def test_no_file_no_bytes_and_too_many_are_refused(tmp_path: Path, monkeypatch: 
     assert code_of(path) == "too_large"
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(share=st.floats(0.0, 0.999))
 def test_a_file_that_was_cut_off_is_refused(tmp_path: Path, share: float) -> None:
     whole = write(tmp_path / "whole.pose", {"POSE_LANDMARKS": POSE, **HANDS}).read_bytes()
@@ -308,7 +271,7 @@ def test_a_file_that_was_cut_off_is_refused(tmp_path: Path, share: float) -> Non
     assert code_of(path) in ("bad_pose_file", "empty_file")
 
 
-@settings(max_examples=80, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=80, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(changes=st.lists(st.tuples(st.floats(0.0, 0.999), st.integers(0, 255)), min_size=1, max_size=5))
 def test_damage_is_refused_or_harmless(tmp_path: Path, changes: list[tuple[float, int]]) -> None:
     content = bytearray(write(tmp_path / "whole.pose", {"POSE_LANDMARKS": POSE, **HANDS}).read_bytes())
@@ -320,23 +283,6 @@ def test_damage_is_refused_or_harmless(tmp_path: Path, changes: list[tuple[float
         assert isinstance(read_pose_file(path), PoseClip)
     except LutError as error:
         assert "expected" in str(error)
-
-
-def test_noise_is_no_pose_file(tmp_path: Path) -> None:
-    path = tmp_path / "noise.pose"
-    path.write_bytes(np.random.default_rng(1).bytes(20_000))
-    assert code_of(path) == "bad_pose_file"
-    path.write_bytes(b"bag of words")
-    assert code_of(path) == "bad_pose_file"
-
-
-def test_the_clips_of_the_alphabet_are_read_as_the_letters_are() -> None:
-    letter = load_letter_clips(load_language(DEFAULT_LANGUAGE))["L"]
-    folder = Path(str(resources.files("spoken_to_signed"))) / "assets" / "fingerspelling_lexicon" / "ssp"
-    clip = read_pose_file(folder / letter.file)
-    assert clip.rate == letter.rate
-    np.testing.assert_allclose(clip.right_hand.places[..., 1:], letter.hand[..., 1:], atol=1e-9)
-    assert not clip.left_hand.seen.any()
 
 
 def run(*arguments: str | Path) -> Result:

@@ -11,11 +11,6 @@ from teo_names import RIGHT_HAND, joint_limits
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 
 
-@pytest.fixture(scope="module")
-def robot():
-    return Robot.load()
-
-
 @pytest.mark.parametrize("name", ["teo", "gr1t2"])
 def test_many_arms_at_once_are_where_pinocchio_has_each(name):
     robot = Robot.load(name)

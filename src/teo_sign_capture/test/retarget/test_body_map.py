@@ -1,25 +1,17 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Where places at and before a person come to lie on TEO."""
-
 from __future__ import annotations
 
 import numpy as np
 import pytest
 from robot_person import JOINTS, keypoints, track_of
 
-from teo_description.robot import Robot
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.body_map import BodyMap, body_boxes, on_skin
 from teo_sign_capture.retarget.head_motion import follow_head
 from teo_sign_capture.signing_space import MIRROR, find_place
 from teo_sign_capture.tracks.head_pose import head_pose
 from teo_sign_capture.tracks.signer_motion import measure_person
-
-
-@pytest.fixture(scope="module")
-def robot():
-    return Robot.load()
 
 
 def someone(robot, size=(1.0, 1.0, 1.0)):

@@ -5,10 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from robot_person import keypoints
-from scipy.spatial.transform import Rotation
 
 from teo_description.hand_geometry import HandPoints, HandTable
-from teo_description.robot import Robot
 from teo_names import RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_sign_capture.retarget.hand_motion import follow_hand
 from teo_sign_capture.tracks.signer_motion import signer_arm
@@ -16,11 +14,6 @@ from teo_skeleton_retriever.lifting.hand_axes import finger_bends, in_palm, stra
 
 JOINTS = RIGHT_ARM + RIGHT_HAND
 STRAIGHT = np.zeros((4, 3))
-
-
-@pytest.fixture(scope="module")
-def robot():
-    return Robot.load()
 
 
 @pytest.fixture(scope="module")
@@ -86,15 +79,6 @@ def test_what_the_coupled_joints_cannot_do_is_reported(table):
     assert straight == pytest.approx(7.0, abs=0.1)  # TEO's straightest
     assert bent > 5.0
     assert fist < 1.0
-
-
-def test_size_and_attitude_of_a_hand_change_nothing(table):
-    times = np.arange(10) / 30.0
-    hand = person_hand([(10, 20, 10), (40, 50, 30), (60, 70, 40), (80, 90, 50)])
-    turn = Rotation.from_rotvec((0.4, -1.1, 2.0))
-    moved = turn.apply(2.0 * hand.reshape(-1, 3)).reshape(hand.shape) + np.array([1.0, 2.0, 3.0])
-    first, second = (followed(table, times, one, STRAIGHT).axes for one in (hand, moved))
-    assert second == pytest.approx(first, abs=1e-6)
 
 
 def test_a_finger_that_seems_bent_while_straight_is_straight_for_its_signer(table):

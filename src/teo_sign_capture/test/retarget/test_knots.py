@@ -1,7 +1,5 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Trembling goes, knots are few, and what passes through them stays near the motion."""
-
 from __future__ import annotations
 
 import numpy as np
@@ -14,7 +12,6 @@ from teo_common.arrays import Array
 from teo_description.humanoid import load_humanoid
 from teo_names import RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_sign_capture.retarget.knots import (
-    BODY_TUBE,
     FINGER_TUBE,
     TOLERANCE,
     deviations,
@@ -56,14 +53,6 @@ def test_fingers_that_tremble_stand_still() -> None:
     assert speed(smoothest_motion(TEO, TIMES, JOINTS, motion)).max() < 1e-6
 
 
-def test_a_fast_stroke_loses_no_more_than_the_radius() -> None:
-    wave = np.sin(2.0 * np.pi * 3.0 * TIMES)[:, None]
-    motion = MIDDLE + wave * np.array([0.4] * 6 + [0.6] * 6)
-    span = np.ptp(smoothest_motion(TEO, TIMES, JOINTS, motion), axis=0)
-    assert (span[:6] >= 0.8 * np.abs(wave).max() - 2.0 * BODY_TUBE - 1e-9).all()
-    assert (span[6:] >= 1.2 * np.abs(wave).max() - 2.0 * FINGER_TUBE - 1e-9).all()
-
-
 def test_it_is_the_gentlest() -> None:
     """No small change within the tube has less acceleration."""
     rng = np.random.default_rng(2)
@@ -80,18 +69,6 @@ def test_it_is_the_gentlest() -> None:
         assert (bending(other) >= bending(gentle) - 1e-9).all()
 
 
-@pytest.mark.parametrize("count", [1, 2])
-def test_what_is_too_short_to_bend_stays(count: int) -> None:
-    motion = np.tile(MIDDLE, (count, 1))
-    np.testing.assert_array_equal(smoothest_motion(TEO, TIMES[:count], JOINTS, motion), motion)
-
-
-def test_a_joint_on_its_limit_stays_on_it() -> None:
-    motion = np.tile(joint_limits(JOINTS).lower, (len(TIMES), 1))
-    np.testing.assert_allclose(smoothest_motion(TEO, TIMES, JOINTS, motion), motion, atol=FINGER_TUBE)
-    assert (smoothest_motion(TEO, TIMES, JOINTS, motion) >= motion).all()
-
-
 @pytest.mark.filterwarnings("error")
 def test_steps_and_limits_are_no_trouble_for_the_search() -> None:
     """Motions whose answer lies on the tube's edge for long: a step, and a joint that leaves its limit."""
@@ -100,7 +77,7 @@ def test_steps_and_limits_are_no_trouble_for_the_search() -> None:
     upper = joint_limits(JOINTS).upper
     leaving = upper + np.minimum(0.0, np.round(np.cumsum(rng.normal(0.0, 0.05, (len(TIMES), 12)), axis=0), 2))
     for motion in (step, np.maximum(leaving, joint_limits(JOINTS).lower)):
-        for share in (1.0, 0.5, 0.25, 0.16, 0.02):
+        for share in (1.0, 0.25, 0.02):
             gentle = smoothest_motion(TEO, TIMES, JOINTS, motion, share=share)
             assert (np.abs(gentle - motion) <= share * tube_radii(TEO, JOINTS) + 1e-9).all()
             assert (gentle <= upper + 1e-12).all()
@@ -145,7 +122,5 @@ def test_the_spline_is_one_through_the_knots() -> None:
 def test_short_motions_keep_what_they_have(count: int) -> None:
     motion = np.array([[0.0], [1.0], [0.0]])[:count]
     assert reduce_to_knots(TIMES[:count], motion).tolist() == list(range(count))
-
-
-def test_a_still_motion_is_two_knots() -> None:
-    assert reduce_to_knots(TIMES, np.ones((len(TIMES), 3))).tolist() == [0, len(TIMES) - 1]
+    still = np.tile(MIDDLE, (count, 1))
+    np.testing.assert_allclose(smoothest_motion(TEO, TIMES[:count], JOINTS, still), still, atol=1e-9)

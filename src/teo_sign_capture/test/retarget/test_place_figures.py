@@ -1,7 +1,5 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Major places are read as a person who watches would."""
-
 from __future__ import annotations
 
 import numpy as np

