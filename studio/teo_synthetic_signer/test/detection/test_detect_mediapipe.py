@@ -1,7 +1,5 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""MediaPipe against a rendered person whose joints are known."""
-
 from __future__ import annotations
 
 import gc
@@ -15,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from refusals import refused
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.detectors.mediapipe.mediapipe_detector import MediaPipeDetector, without_doubles
@@ -23,7 +22,6 @@ from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 from teo_synthetic_signer import SyntheticFrame, render_take
 
-RATE = 30.0
 HANDS = ("left_hand", "right_hand")
 
 
@@ -177,16 +175,16 @@ def test_each_of_two_images_at_once_gets_its_own_answer(
     alone = [detector.detect(image, 0.0) for image in shown]
     assert [len(people) for people in alone] == [1, 0, 1]
     with ThreadPoolExecutor(2) as threads:
-        together = list(threads.map(lambda i: detector.detect(shown[i % 3], 0.0), range(18)))
+        together = list(threads.map(lambda i: detector.detect(shown[i % 3], 0.0), range(9)))
     for i, people in enumerate(together):
         assert len(people) == len(alone[i % 3])
         for one, other in zip(people, alone[i % 3], strict=True):
             np.testing.assert_allclose(one.body[:8, :2], other.body[:8, :2], atol=12.0)
 
 
-@pytest.mark.parametrize("shape", [(480, 640), (720, 1280), (1, 1), (3, 2), (40, 2000)])
-def test_an_empty_image_has_nobody(shape: tuple[int, int], detector: MediaPipeDetector) -> None:
-    assert detector.detect(np.full((*shape, 3), 90, np.uint8), 0.0) == ()
+def test_an_empty_image_of_any_size_has_nobody(detector: MediaPipeDetector) -> None:
+    for shape in ((480, 640), (720, 1280), (1, 1), (3, 2), (40, 2000)):
+        assert detector.detect(np.full((*shape, 3), 90, np.uint8), 0.0) == ()
 
 
 def test_the_person_is_found_again_after_leaving_and_in_another_resolution(
@@ -217,9 +215,8 @@ def test_a_graph_that_failed_fails_one_image_only(
     assert detector._follower is not None
     for graph in (*detector._follower._followed, *detector._follower._spare):
         graph._graph.close()
-    with pytest.raises(RetrieverError) as caught:
+    with refused("failed"):
         detector.detect(frames[0].color, 0.0)
-    assert caught.value.code == "failed"
     assert len(detector.detect(frames[0].color, 0.1)) == 1
 
 
@@ -250,9 +247,9 @@ def test_a_closed_detector_frees_its_networks() -> None:
     gc.collect()
     assert graph() is None
     before = resident()
-    for _ in range(4):
+    for _ in range(3):
         MediaPipeDetector().close()
-    assert resident() - before < 100.0  # [MB]; each holds more than 50
+    assert resident() - before < 80.0  # [MB]; each holds more than 50
 
 
 def resident() -> float:

@@ -1,7 +1,5 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""What is left out of MediaPipe's graph changes nothing of what it finds."""
-
 from __future__ import annotations
 
 from collections.abc import Iterable

@@ -1,7 +1,5 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Two people before the camera: both are followed, and the rule says whose signing counts."""
-
 from __future__ import annotations
 
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Hands go round the body and each other: out of what they are in, and nowhere else."""
-
 from __future__ import annotations
 
 import numpy as np

@@ -1,10 +1,9 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Rendered frames: truth that agrees with the picture, visibility, determinism."""
-
 from __future__ import annotations
 
 import itertools
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -17,7 +16,6 @@ from teo_synthetic_signer.errors import SyntheticError
 from teo_synthetic_signer.take.furniture import furnish
 
 SMALL = {"width": 320, "height": 240}
-WALL = 1.5  # [m] behind the person, in the studio
 SKIN = {  # least and greatest depth of a joint's centre behind what the camera sees of the person [m]
     "Shoulder": (0.02, 0.13),
     "Elbow": (0.015, 0.09),
@@ -121,20 +119,16 @@ def test_what_a_hand_or_an_arm_covers_is_hidden_and_seen_again_after() -> None:
     assert covered > 0.6
 
 
-def test_the_same_options_give_the_same_frame_in_any_order() -> None:
+def test_the_same_options_give_the_same_frame_in_any_order_and_another_seed_other_noise() -> None:
     options = TakeOptions(scene="office", sensor="d435", seed=3, **SMALL)
-    first, again = Take(options), Take(options)
+    first, again, other = Take(options), Take(options), Take(replace(options, seed=4))
     again.frame(7)
-    a, b = first.frame(20), again.frame(20)
+    a, b, c = first.frame(20), again.frame(20), other.frame(20)
     np.testing.assert_array_equal(a.color, b.color)
     np.testing.assert_array_equal(a.depth, b.depth)
     np.testing.assert_array_equal(a.truth.body, b.truth.body)
-
-
-def test_another_seed_gives_other_noise_and_the_same_truth() -> None:
-    a, b = (next(iter(render_take(scene="studio", seed=seed, frames=range(1), **SMALL))) for seed in (0, 1))
-    assert (a.depth != b.depth).mean() > 0.3
-    np.testing.assert_array_equal(a.truth.face, b.truth.face)
+    assert (a.depth != c.depth).mean() > 0.3
+    np.testing.assert_array_equal(a.truth.face, c.truth.face)
 
 
 def test_the_person_drawn_over_the_room_is_what_one_cast_of_both_gives(take: Take) -> None:
@@ -148,18 +142,6 @@ def test_the_person_drawn_over_the_room_is_what_one_cast_of_both_gives(take: Tak
     hits = RayCaster(corners).cast(frame.camera.rays(pixels).astype(np.float32))
     expected = np.where(np.isfinite(hits.distance), hits.distance, np.nan).reshape(frame.depth.shape)
     np.testing.assert_allclose(frame.depth, expected, rtol=1e-5)
-
-
-def test_a_camera_that_is_higher_looks_down_on_the_same_truth() -> None:
-    low, high = (perfect(script="still", camera_height=h).truth(0) for h in (1.0, 1.9))
-    for frame in (low, high):
-        chest = frame.camera.project(frame.truth.body[[BODY_25.index["Neck"]]])[0]
-        assert 80 < chest[1] < 200
-    a, b = (
-        np.linalg.norm(f.truth.body[BODY_25.index["RWrist"]] - f.truth.body[BODY_25.index["LWrist"]])
-        for f in (low, high)
-    )
-    assert a == pytest.approx(b)
 
 
 def test_a_camera_that_is_rolled_turns_the_image_about_its_middle() -> None:
