@@ -20,8 +20,8 @@ from teo_sign_translator.morphology.spanish import unaccented as strip_accents
 from teo_sign_translator.text.source_words import source_words
 
 QUESTION_GLOSSES = {
-    *["QUÉ", "QUIÉN", "CUÁL", "CÓMO", "CUÁNDO", "DÓNDE", "CUÁNTO", "CUÁNTOS", "POR_QUÉ", "PARA_QUÉ"]
-}
+    "QUÉ", "QUIÉN", "CUÁL", "CÓMO", "CUÁNDO", "DÓNDE", "CUÁNTO", "CUÁNTOS", "POR_QUÉ", "PARA_QUÉ",
+}  # fmt: skip
 ENCLITICS = re.compile(r"(?<=[aeiouáéíóúrdnzl])(se|me|te|nos|os)?(lo|la|los|las|le|les|me|te|nos|os|se)$")
 NEGATIONS = ("NO", "NUNCA", "NADIE", "TODAVÍA_NO", "TAMPOCO")
 
@@ -146,22 +146,9 @@ def test_articles_agree_with_their_nouns(pairs, morphology):
         gender.setdefault(lemma, set()).add(column)
     articles = {"el": "m", "la": "f", "un": "m", "una": "f"}
     stressed = {
-        *[
-            "agua",
-            "aula",
-            "águila",
-            "arma",
-            "hambre",
-            "alma",
-            "área",
-            "ala",
-            "hada",
-            "hacha",
-            "ancla",
-            "arca",
-            "ave",
-        ]
-    }
+        "agua", "aula", "águila", "arma", "hambre", "alma", "área", "ala", "hada", "hacha", "ancla",
+        "arca", "ave",
+    }  # fmt: skip
     checked = 0
     for pair in pairs:
         if pair.rule == "statement.object_first":
@@ -273,10 +260,3 @@ def test_the_papers_sentences_are_in_the_corpus_as_the_paper_translates_them(mor
             assert own[pair.sentence] == tuple(map(gloss_name, pair.glosses))
     assert own["Yo tengo nueve años"] == ("YO", "EDAD", "9")
     assert own["Me llamo Lucía"] == ("MI", "NOMBRE", "LUCÍA")
-
-
-def test_unwanted_sentences_do_not_occur_however_they_are_typed(generator):
-    first = [pair.text for pair in generator.pairs(200, seed=3)]
-    unwanted = [strip_accents(sentence).upper().replace(" ", "  ").strip("¿¡.?!") for sentence in first[:50]]
-    second = {pair.text for pair in generator.pairs(200, seed=3, leave_out=unwanted)}
-    assert not second & set(first[:50])

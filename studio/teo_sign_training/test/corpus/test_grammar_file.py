@@ -8,13 +8,13 @@ import shutil
 
 import pytest
 from example_chooser import ExampleChooser
+from refusals import refused
 
 from teo_sign_training.corpus.derivation import Derivation
 from teo_sign_training.corpus.generator import Generator
 from teo_sign_training.corpus.grammar_file import load_grammar
 from teo_sign_translator.data_files import data_file
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.morphology import Morphology
 
 #: Lists of words.yaml that are not of nouns.
 OTHER_LISTS = ("stressed_a", "mass_classes", "unsaid_verbs", "directed_verbs", "person_verbs", "plans")
@@ -33,11 +33,6 @@ def test_every_example_beside_a_rule_is_what_the_rule_makes(generator):
             if unused:
                 wrong.append((rule.where, "fixes what is not there", unused))
     assert not wrong
-
-
-def test_the_grammar_is_broad(generator):
-    assert sum(len(family.rules) for family in generator.grammar.families) > 250
-    assert len({verb.lemma for verb in generator.words.verbs}) > 400
 
 
 def test_every_verb_can_be_conjugated(generator):
@@ -68,58 +63,30 @@ def test_every_word_of_the_lists_is_in_the_lexicon(generator):
 @pytest.mark.parametrize(
     ("file", "old", "new", "named"),
     [
-        (
-            "sentences.yaml",
-            '{S} {N} {P:S} ."\n        signs',
-            '{S} {Z} {P:S} ."\n        signs',
-            "statement.plain",
-        ),
         ("sentences.yaml", 'signs: "{S} {P} {N}"', 'signs: "{S} {Q} {N}"', "statement.plain"),
         ("sentences.yaml", 'pick: {S: "subject"', 'pick: {S: "subjetc"', "statement.plain"),
-        (
-            "sentences.yaml",
-            '        example: {text: "Compro el libro."',
-            '        exmaple: {text: "Compro el libro."',
-            "statement.plain",
-        ),
+        ("sentences.yaml", 'example: {text: "Compro el l', 'exmaple: {text: "Compro el l', "statement.plain"),
         ("sentences.yaml", "        weight: 10\n", "        weight: -1\n", "statement.plain"),
         ("phrases.yaml", 'signs: "{n} MUCHO=mucho"', 'signs: "{n} MUCHO=muchos"', "someone.many"),
-        ("phrases.yaml", "este~n {n}", "esto~n {n}", "someone.this"),
         ("clauses.yaml", "$V.object det=$V.det", "$W.object det=$W.det", "vp.thing"),
-        (
-            "shapes.yaml",
-            'text: "^ */ind:pres", signs: "*"',
-            'text: "^ */ind:pres", signs: "* NO=no"',
-            "present",
-        ),
+        ("shapes.yaml", '^ */ind:pres", signs: "*"', '^ */ind:pres", signs: "* NO=no"', "present"),
         ("shapes.yaml", "mood: sub, text", "mood: sbu, text", "subjunctive"),
         ("words.yaml", "  el: el la los las", "  el: el la los", "el"),
         ("times.yaml", "    none: {weight: 62", "    no: {weight: 62", "time"),
-        (
-            "held_out.yaml",
-            "held_out:\n",
-            "held_out:\n  - statement.plain.nowhere\n",
-            "statement.plain.nowhere",
-        ),
-        (
-            "held_out.yaml",
-            "    condition in_case.if_then",
-            "    condition vp.nowhere in_case.if_then",
-            "vp.nowhere",
-        ),
+        ("held_out.yaml", "held_out:\n", "held_out:\n  - statement.plain.none\n", "statement.plain.none"),
+        ("held_out.yaml", "    condition in_case", "    condition vp.nowhere in_case", "vp.nowhere"),
         ("everyday.yaml", "families:", "family:", "everyday.yaml"),
     ],
 )
-def test_a_fault_is_reported_with_file_and_rule(tmp_path, file, old, new, named):
+def test_a_fault_is_reported_with_file_and_rule(morphology, tmp_path, file, old, new, named):
     shutil.copytree(data_file("grammar"), tmp_path / "grammar")
     (tmp_path / "lexicon").symlink_to(data_file("lexicon"))
     path = tmp_path / "grammar" / file
     text = path.read_text(encoding="utf-8")
     assert old in text
     path.write_text(text.replace(old, new, 1), encoding="utf-8")
-    with pytest.raises(TranslationError) as caught:
-        Generator.load(tmp_path / "grammar", Morphology.load())
-    assert caught.value.code == "invalid_grammar"
+    with refused("invalid_grammar") as caught:
+        Generator.load(tmp_path / "grammar", morphology)
     assert named in str(caught.value)
 
 
@@ -128,6 +95,5 @@ def test_a_broken_file_is_reported_by_name_and_a_folder_without_any_too(tmp_path
     with pytest.raises(TranslationError, match="found none"):
         load_grammar(tmp_path)
     (tmp_path / "broken.yaml").write_bytes(content)
-    with pytest.raises(TranslationError, match=r"broken\.yaml") as caught:
+    with refused("invalid_grammar", r"broken\.yaml"):
         load_grammar(tmp_path)
-    assert caught.value.code == "invalid_grammar"

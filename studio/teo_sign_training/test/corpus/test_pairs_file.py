@@ -36,7 +36,6 @@ def test_what_is_written_is_read_again(tmp_path_factory, pairs):
 @pytest.mark.parametrize(
     "line",
     [
-        "Hola.\tHOLA\t0\tgreetings.phrase",
         "Hola.\tHOLA\t0\tgreetings.phrase\ttrian",
         "Hola.\tHOLA\tx\tgreetings.phrase\ttrain",
         "Hola.\tHOLA\t0 1\tgreetings.phrase\ttrain",

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 import torch
+from refusals import refused
 
-from teo_sign_training.cli.reproduce_paper import split
 from teo_sign_training.corpus.paper_pairs import paper_pairs
 from teo_sign_training.fitting.lstm256_fitting import EncoderDecoder, LstmTrainingConfig, Training, train
 from teo_sign_training.lstm256.seq2seq import (
@@ -23,7 +23,6 @@ from teo_sign_training.lstm256.seq2seq import (
     published_tokens,
     save_model,
 )
-from teo_sign_translator.errors import TranslationError
 
 EXAMPLES = [(published_tokens(pair.sentence), pair.glosses) for pair in paper_pairs()[:8]]
 INPUTS = TokenList.of_inputs(source for source, _ in EXAMPLES)
@@ -100,31 +99,17 @@ def test_a_model_that_never_ends_is_stopped() -> None:
 def test_no_tokens_and_unknown_tokens_are_refused() -> None:
     model = load_model("lstm256")
     for tokens, code in (([], "empty_text"), (["zzz"], "unknown_token")):
-        with pytest.raises(TranslationError) as error:
+        with refused(code):
             model.predict(tokens)
-        assert error.value.code == code
 
 
 @pytest.mark.parametrize(
     "change",
-    [
-        {"hidden": 0},
-        {"epochs": 0},
-        {"batch_size": 0},
-        {"learning_rate": 0.0},
-        {"learning_rate": float("nan")},
-        {"decay": 1.0},
-    ],
+    [{"hidden": 0}, {"epochs": 0}, {"batch_size": 0}, {"learning_rate": float("nan")}, {"decay": 1.0}],
 )
 def test_a_configuration_that_cannot_train_is_refused(change: dict[str, float]) -> None:
-    with pytest.raises(TranslationError) as error:
+    with refused("invalid_config"):
         LstmTrainingConfig(**change)  # type: ignore[arg-type]
-    assert error.value.code == "invalid_config"
-
-
-def test_a_fifth_is_held_out() -> None:
-    learned, held_out = split(paper_pairs())
-    assert (len(learned), len(held_out)) == (31, 8)
 
 
 @pytest.fixture(scope="module")
@@ -162,6 +147,5 @@ def test_a_damaged_model_is_refused(
     save_model("small", tmp_path, inputs=INPUTS, outputs=OUTPUTS, weights=changed, card={})
     path = tmp_path / "small.json"
     path.write_text(json.dumps(json.loads(path.read_text("utf-8")) | card), encoding="utf-8")
-    with pytest.raises(TranslationError) as error:
+    with refused("invalid_model"):
         load_model("small", tmp_path)
-    assert error.value.code == "invalid_model"
