@@ -32,11 +32,6 @@ from teo_signs.look_up_table import Lut, LutError
 from teo_skeleton_retriever.lifting.hand_axes import palm_axes
 
 
-@pytest.fixture(scope="module")
-def robot() -> Robot:
-    return Robot.load()
-
-
 @cache
 def clips() -> dict[str, LetterClip]:
     return load_letter_clips(load_language(DEFAULT_LANGUAGE))

@@ -18,11 +18,6 @@ TABLE = default_lut_directory()
 STRAIGHT = {"1": 1, "2": 2, "3": 3, "4": 4, "5": 4, "6": 1, "7": 2, "8": 3, "9": 4, "10": 4}
 
 
-@pytest.fixture(scope="module")
-def robot() -> Robot:
-    return Robot.load()
-
-
 @cache
 def sign(gloss: str) -> Sign:
     return Lut.open(TABLE)[gloss]

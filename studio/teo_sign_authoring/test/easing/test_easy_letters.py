@@ -8,28 +8,22 @@ import dataclasses
 from functools import cache
 
 import numpy as np
-import pytest
+from refusals import refused
 from scipy.spatial.transform import Rotation
 
 from teo_description.hand_geometry import HandGeometry
 from teo_description.robot import Robot
 from teo_motion.trajectory.limits import MotionLimits
-from teo_names import COMMANDED_JOINTS, joint_limits
+from teo_names import COMMANDED_JOINTS
 from teo_sign_authoring.alphabet.spelling_arm import shift_off_face
 from teo_sign_authoring.easing.easy_letters import ease_letters
 from teo_sign_capture.retarget.knots import least_clearance
 from teo_sign_languages import DEFAULT_LANGUAGE, load_language
-from teo_signs.errors import LutError
 from teo_signs.likeness import nearest_pairs
 from teo_signs.look_up_table import Lut
 from teo_signs.sign import Sign
 
 ALPHABET = load_language(DEFAULT_LANGUAGE).alphabet
-
-
-@pytest.fixture(scope="module")
-def robot() -> Robot:
-    return Robot.load()
 
 
 @cache
@@ -74,12 +68,10 @@ def test_letters_that_look_alike_look_no_more_alike_in_any_posture(robot: Robot)
     assert nearest_pairs(robot, [eased(sign) for sign in letters().values()])[0].seen > 1.24
 
 
-def test_nothing_touches_hides_the_face_or_leaves_its_limits(robot: Robot) -> None:
+def test_nothing_touches_or_hides_the_face(robot: Robot) -> None:
     hand = HandGeometry(robot)
     for letter, sign in letters().items():
         other = sign.alternatives[0]
-        limits = joint_limits(sign.joints)
-        assert (other >= limits.lower).all() and (other <= limits.upper).all(), letter
         assert least_clearance(robot, sign.joints, other[[0, -1]]) > 0.014, letter
         assert np.linalg.norm(shift_off_face(robot, other)) < 0.03, letter
         for row, captured in zip(other[[0, -1]], sign.knots[[0, -1]], strict=True):
@@ -103,6 +95,5 @@ def test_ways_between_letters_take_less_time() -> None:
 
 
 def test_a_table_without_letters_is_refused(robot: Robot) -> None:
-    with pytest.raises(LutError, match="letters among A, B") as caught:
+    with refused("unknown_sign", "letters among A, B"):
         ease_letters(robot, ALPHABET, {})
-    assert caught.value.code == "unknown_sign"

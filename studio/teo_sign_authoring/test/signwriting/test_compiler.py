@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from refusals import refused
 
 from teo_sign_authoring.notation.score_file import read_score
 from teo_sign_authoring.notation.score_schema import Step, flattened
@@ -99,9 +100,8 @@ def test_the_black_arrow_of_a_lone_hand_is_the_right_hands() -> None:
     ],
 )
 def test_what_is_not_understood_is_refused_by_name(fsw: str, code: str) -> None:
-    with pytest.raises(UnreadableError) as refused:
+    with refused(code):
         compiled(fsw)
-    assert refused.value.code == code
 
 
 @pytest.mark.parametrize("fsw", [FRIENDSHIP, BLUE, BLACK, MINE, ANGRY])
@@ -137,17 +137,8 @@ def test_any_hand_with_any_movement_is_compiled_or_refused(
 
 @pytest.mark.parametrize(
     "text",
-    [
-        "",
-        "hola",
-        "M518x517",
-        "M518x517S15a00",
-        "M5x5S15a00482x482",
-        "<spml/>",
-        "M518x517" + "S15a00482x482" * 1000,
-    ],
+    ["", "hola", "M518x517", "M518x517S15a00", "M5x5S15a00482x482", "M518x517" + "S15a00482x482" * 1000],
 )
 def test_what_is_no_sign_is_refused(text: str) -> None:
-    with pytest.raises(LutError) as refused:
+    with refused("bad_fsw"):
         compiled(text)
-    assert refused.value.code == "bad_fsw"

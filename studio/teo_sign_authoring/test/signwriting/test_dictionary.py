@@ -9,11 +9,11 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from refusals import refused
 from typer.testing import CliRunner, Result
 
 from teo_lut_executor.cli.lut import app
 from teo_sign_authoring.signwriting.dictionary_file import MOST_BYTES, GlossNames, numbered, read_dictionary
-from teo_signs.errors import LutError
 from teo_signs.sign_file import read_sign
 
 SPML = """<?xml version="1.0" encoding="UTF-8"?>
@@ -49,11 +49,9 @@ def names() -> GlossNames:
     [
         ("abuelo 5", "ABUELO"),
         ("carcel 2", "CÁRCEL"),
-        ("ladron", "LADRÓN"),
         ("quien? 13", "QUIÉN"),
         ("POR FIN 1", "POR_FIN"),
         ("cemetery 2", None),
-        ("carsasrse", None),
         ("?3", None),
         ("", None),
     ],
@@ -79,22 +77,18 @@ def test_an_export_of_signpuddle_is_read(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "content", "code"),
     [
-        ("a.tsv", b"", "no_entries"),
         ("a.tsv", b"term\tfsw\n", "no_entries"),
-        ("a.tsv", b"sol", "not_tsv"),
         ("a.tsv", b"sol\tM518x533\tmore", "not_tsv"),
         ("a.tsv", b"\xff\xfe\x00", "not_utf8"),
         ("a.spml", SPML.encode()[:150], "not_spml"),
-        ("a.spml", b"<html/>", "not_spml"),
         ("a.spml", b'<!DOCTYPE spml [<!ENTITY a "b">]><spml>&a;</spml>', "not_spml"),
         ("a.spml", b"<spml/>", "no_entries"),
     ],
 )
 def test_a_damaged_file_is_refused_by_name(tmp_path: Path, name: str, content: bytes, code: str) -> None:
     (tmp_path / name).write_bytes(content)
-    with pytest.raises(LutError) as refused:
+    with refused(code):
         read_dictionary(tmp_path / name)
-    assert refused.value.code == code
 
 
 def test_a_huge_file_and_none_are_refused(tmp_path: Path) -> None:
@@ -102,9 +96,8 @@ def test_a_huge_file_and_none_are_refused(tmp_path: Path) -> None:
     with huge.open("wb") as file:
         file.truncate(MOST_BYTES + 1)
     for path, code in ((huge, "too_large"), (tmp_path / "none.tsv", "unreadable")):
-        with pytest.raises(LutError) as refused:
+        with refused(code):
             read_dictionary(path)
-        assert refused.value.code == code
 
 
 def test_what_can_be_read_is_written_the_rest_reported_and_a_second_run_keeps_it(tmp_path: Path) -> None:
@@ -117,12 +110,8 @@ def test_what_can_be_read_is_written_the_rest_reported_and_a_second_run_keeps_it
     assert first.exit_code == 0, first.output
     outcomes = {each["term"]: each for each in json.loads(report.read_text("utf-8"))}
     assert outcomes["bandeja"]["result"] in ("whole", "with_losses")
-    assert [outcomes[term]["code"] for term in ("lazo", "xqzzt", "sol", "lejos")] == [
-        "movement",
-        "unknown_term",
-        "bad_fsw",
-        "off_place",
-    ]
+    codes = [outcomes[term]["code"] for term in ("lazo", "xqzzt", "sol", "lejos")]
+    assert codes == ["movement", "unknown_term", "bad_fsw", "off_place"]
     assert sorted(path.name for path in table.iterdir()) == ["BANDEJA.json"]
     sign = read_sign(table / "BANDEJA.json")
     assert (sign.provenance.standing, sign.provenance.licence) == ("described", "CC0-1.0")

@@ -27,16 +27,12 @@ def path(symbol: str) -> Path:
     [
         ("S22a00", UP),  # double lines: parallel to the wall
         ("S22a04", DOWN),
-        ("S22a02", LEFT),
         ("S22a06", RIGHT),
         ("S26500", FRONT),  # single line: parallel to the floor
-        ("S26504", BACK),
         ("S26506", RIGHT),
         ("S28800", UP),
         ("S2b700", FRONT),
-        ("S2b704", BACK),
         ("S2d500", LEFT),
-        ("S2d508", RIGHT),
         ("S2a600", UP),
     ],
 )
@@ -70,7 +66,6 @@ def test_arrowheads_say_whose_movement_it_is(symbol: str, hands: str) -> None:
     ("symbol", "begins", "goes"),
     [
         ("S2e300", UP, LEFT),  # counterclockwise, as drawn
-        ("S2e308", UP, RIGHT),
         ("S2ea00", BACK, UP),  # the near side rises: like a wheel that rolls forward
         ("S2ea06", BACK, RIGHT),
     ],
@@ -92,11 +87,9 @@ def test_circles_begin_and_turn_as_drawn(
         ("S15a10", "right", "in", "up"),  # half white, on the left: the right palm faces left
         ("S15a18", "left", "in", "up"),  # its mirror
         ("S15a02", "right", "back", "in"),  # turned by 90 deg counterclockwise: before the chest
-        ("S15a0a", "left", "back", "in"),
         ("S15a30", "right", "up", "front"),  # white with a gap: palm up
         ("S15a50", "right", "down", "front"),
         ("S15a40", "right", "in", "front"),
-        ("S15a52", "right", "down", "in"),
         ("S15a14", "right", "out", "down"),
         ("S15a01", "right", "back", "up in"),
     ],
