@@ -12,7 +12,7 @@ from scipy.spatial import cKDTree
 
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_synthetic_signer.body.body_data import load_body_data
-from teo_synthetic_signer.body.body_shapes import BODIES, Phenotype, target_weights
+from teo_synthetic_signer.body.body_shapes import Phenotype, target_weights
 from teo_synthetic_signer.body.pose import BodyPose
 from teo_synthetic_signer.body.rig import PLACES
 from teo_synthetic_signer.body.signer import Signer
@@ -79,7 +79,7 @@ def with_hand(signer: Signer, side: str, key: ArmKey) -> tuple[np.ndarray, ...]:
     return points(signer, BodyPose(arms={**rest, side: resolver.arm(side, key, None)}))
 
 
-@pytest.mark.parametrize("name", BODIES)
+@pytest.mark.parametrize("name", ["woman_small", "man_tall", "man_heavy"])
 def test_people_have_the_size_of_people_and_places_where_their_names_say(name: str) -> None:
     # Extremes of adults: NASA-STD-3000, 5th percentile woman of Japan to 95th percentile man of the USA, and
     # a little beyond.
