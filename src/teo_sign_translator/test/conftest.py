@@ -5,18 +5,5 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-import pytest
-
-from teo_sign_training.corpus import Pair
-from teo_sign_training.corpus.generator import Generator
-from teo_sign_translator.data_files import data_file
-from teo_sign_translator.morphology import Morphology
-
 # What several tests here need stands beside them.
 sys.path.insert(0, str(Path(__file__).parent))
-
-
-@pytest.fixture(scope="session")
-def generated_pairs() -> list[Pair]:
-    """A small corpus of the shipped grammar, all its splits."""
-    return list(Generator.load(data_file("grammar"), Morphology.load()).pairs(5000, seed=7))

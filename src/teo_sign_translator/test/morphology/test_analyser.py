@@ -149,7 +149,7 @@ def forms_of_the_tables() -> list[tuple[str, str]]:
         for form in lexicon.nominal_forms(word)
     ]
     closed = [(form.lemma, form.tag) for form in lexicon.closed_class_forms()]
-    verbs = [(verb.lemma, tag) for verb in lexicon.verbs()[::5] for tag in VERB_TAGS]
+    verbs = [(verb.lemma, tag) for verb in lexicon.verbs()[::20] for tag in VERB_TAGS]
     return words + closed + verbs
 
 
