@@ -17,6 +17,7 @@ from teo_description.robot import Robot
 from teo_lut_executor.cli.lut import app
 from teo_names import RIGHT_HAND
 from teo_sign_capture.recognition import (
+    HAND,
     MOMENTS,
     PARTS,
     Comparison,
@@ -181,3 +182,12 @@ def test_recognise_says_what_differs_from_the_sign_that_was_meant(tmp_path: Path
     assert not compared["hands"]  # one hand signs in the recording
     unknown = CliRunner().invoke(app, ["recognise", str(bag), "--meant", "SIN_SIGNO", "--json"])
     assert json.loads(unknown.stdout)["code"] == "unknown_sign"
+
+
+def test_a_sign_of_two_hands_made_with_one_is_named_so(robot: Robot) -> None:
+    two = sign_appearance(robot, sign("CASA"))
+    one = two.copy()
+    one[:, HAND:] = 0.0
+    compared = compare("CASA", one, two)
+    assert not compared.hands
+    assert compared.handshape == 0.0  # the hand that is there is right

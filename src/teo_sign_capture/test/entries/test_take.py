@@ -131,3 +131,10 @@ def test_a_hand_too_near_to_its_shoulder_is_at_its_own_place_for_who_watches(rob
     assert np.nanmax(motion.place_error[:, 0]) > 0.15
     assert np.nanmean(motion.wrong_place[:, 0]) == 0.0
     assert np.nanmean(motion.same_zone[:, 0]) > 0.9
+
+
+def test_a_hand_that_is_hidden_keeps_its_shape_if_its_wrist_is_seen(robot: Robot) -> None:
+    whole, hidden = signing(noise=0.0), lose(signing(noise=0.0), "right_hand", 1.2, 1.75)
+    found = capture_take(robot, hidden).track.right_hand.positions
+    truth = capture_take(robot, whole).track.right_hand.positions
+    assert np.abs(found - truth).max() < 0.02

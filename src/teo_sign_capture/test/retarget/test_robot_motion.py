@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from refusals import refused
-from robot_person import JOINTS, keypoints, mirrored_points, track_of
+from robot_person import JOINTS, keypoints, mirrored_points, part, track_of
 from scipy.spatial.transform import Rotation
 
 from teo_description.humanoid import load_humanoid
@@ -234,3 +234,13 @@ def test_one_frame_is_a_motion(robot, points):
     found = retargeted(robot, track_of(TIMES[:1], [one[:1] for one in points]), handedness="both")
     assert found.positions.shape == (1, len(JOINTS))
     assert found.clearance[0] >= 0.010
+
+
+def test_gaps_of_a_hand_are_bridged(robot, points, both):
+    track = track_of(TIMES, points)
+    holed = track.right_hand.positions.copy()
+    holed[10:13] = np.nan
+    holed[::2, 8] = np.nan  # the index's tip comes and goes
+    found = retargeted(robot, replace(track, right_hand=part(holed)), handedness="both")
+    assert np.isfinite(found.positions).all()
+    assert np.degrees(np.abs(found.positions - both.positions)).max() < 15.0

@@ -154,3 +154,10 @@ def test_a_part_without_frames_says_how_long_the_track_is():
 def test_times_that_do_not_go_on_are_refused(code, times):
     with refused(code):
         track(times)
+
+
+def test_shoulders_that_tremble_do_not_make_the_hands_tremble():
+    body, hand = person()
+    noisy = body.copy()
+    noisy[:, (2, 5)] += np.random.default_rng(0).normal(0.0, 0.01, (60, 2, 3))
+    assert np.std(track_of(noisy, hand).right_hand.positions - hand) < 0.004

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from sensor_msgs.msg import RegionOfInterest
 
-from teo_skeleton_retriever.camera.rgbd_image import camera_of
+from teo_skeleton_retriever.camera.rgbd_image import camera_of, shows_depth
 from teo_skeleton_retriever.errors import RetrieverError
 
 
@@ -34,3 +34,11 @@ def test_a_region_and_binning_move_and_scale_the_image():
     point = np.array([[0.1, -0.2, 2.0]])
     whole = camera_of(take.camera_info(0)).project(point)
     np.testing.assert_allclose(camera.project(point), (whole - [20, 40]) / 2)
+
+
+def test_colour_and_depth_are_told_apart():
+    assert shows_depth(take.depth_message(0))
+    assert shows_depth(take.compressed_depth(0))
+    assert shows_depth(take.color_message(0)) is False
+    assert shows_depth(take.compressed_color(0)) is False
+    assert shows_depth(take.color_message(0, encoding="bayer_grbg8")) is None

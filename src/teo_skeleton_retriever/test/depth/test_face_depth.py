@@ -40,3 +40,9 @@ def test_a_face_of_which_almost_nothing_was_measured_is_unknown() -> None:
     depths = np.full(70, math.nan)
     depths[:5] = DEPTHS[:5]
     assert np.isnan(look(depths).depths).all()
+
+
+def test_a_face_that_is_seen_is_measured() -> None:
+    found = look(DEPTHS)
+    np.testing.assert_allclose(found.depths[found.measured], DEPTHS[found.measured])
+    assert found.measured.mean() > 0.9

@@ -49,7 +49,8 @@ def test_bones_have_the_colour_of_their_status_where_the_camera_images_them(stat
     found = close_to(drawn(person(status), scale=2), STATUS_COLORS[status])
     # From 0.3 m left to 0.3 m right at 1.5 m: 120 px to each side of the middle, at half the height.
     row = found[239]
-    assert row[200:438].mean() > (0.3 if status is KeypointStatus.HELD else 0.9)
+    lined = row[200:438].mean()
+    assert 0.3 < lined < 0.9 if status is KeypointStatus.HELD else lined > 0.9  # dashed where it is held
     assert not row[:190].any()
     assert not row[450:].any()
 
@@ -76,3 +77,8 @@ def test_depth_is_shown_in_the_corner_with_holes_dark():
     assert Overlay().draw(blind, Retrieved((), (), 0.0, float("nan"), 0.0, 0.0))[corner].max() < 60
     seen = drawn()[corner]
     assert seen.max() > 100
+
+
+def test_people_outside_the_picture_and_half_in_it_are_drawn_without_trouble():
+    for place in (-500.0, -0.9, 0.9, 500.0):
+        assert drawn(person(KeypointStatus.MEASURED, place)).shape == (take.HEIGHT, take.WIDTH, 3)

@@ -9,12 +9,15 @@ import pytest
 
 from teo_skeleton_retriever.detectors.mediapipe.holistic_graph import HolisticLandmarks
 from teo_skeleton_retriever.detectors.mediapipe.mediapipe_detector import (
+    BODY_25_FROM_POSE,
     own_hands,
     person_from_holistic,
 )
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
+# MediaPipe's pose landmarks: odd is left from the ears on.
+LEFT_OF_POSE = {2, 7, *range(11, 33, 2)}
 HAND = np.zeros((21, 3))
 
 
@@ -71,3 +74,17 @@ def test_pupils_need_the_irises() -> None:
     assert without[67].tolist() == [5.0, 5.0, 1.0]
     assert without[68:].tolist() == [[0.0, 0.0, 0.0]] * 2
     assert with_them[68:, 2].tolist() == [1.0, 1.0]
+
+
+def test_left_comes_from_left_and_right_from_right() -> None:
+    for name, landmark in BODY_25_FROM_POSE.items():
+        if name != "Nose":
+            assert name.startswith("L") == (landmark in LEFT_OF_POSE), name
+
+
+def test_hands_keep_their_order_and_side_and_parts_not_seen_are_absent() -> None:
+    left = np.full((21, 3), 0.25)
+    left[8, :2] = (0.5, 0.5)
+    seen = person(height=10, left_hand=left, left_hand_score=0.9)
+    assert seen.left_hand[8].tolist() == [50.0, 5.0, 0.9]
+    assert len(seen.right_hand) == len(seen.face) == 0
