@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
+from itertools import islice, pairwise
 from pathlib import Path
 
 import numpy as np
@@ -229,7 +229,7 @@ def test_a_compound_of_what_is_not_there_is_refused(tmp_path: Path, signs: str, 
 
 def test_entries_that_scores_made_keep_clearance_between_their_knots(robot: Robot, shipped: Lut) -> None:
     """A second look at every third, denser than the one that made it."""
-    for score in read_scores(default_scores_directory())[::3]:
+    for score in islice(read_scores(default_scores_directory()), 0, None, 3):
         sign = shipped[score.gloss]
         assert sign.provenance.standing == score.standing
         ways = [np.linspace(first, second, 9) for first, second in pairwise(sign.knots)]
