@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The executor with the simulated driver: its action, newer texts, several robots, a simulator's clock."""
+"""The executor with the simulated driver: its action, refusals, several robots, a simulator's clock."""
 
 from __future__ import annotations
 
@@ -42,8 +42,8 @@ class Lab(Node):
         rclpy.init(context=context, domain_id=domain_id, args=["--ros-args", *arguments])
         super().__init__("lab", context=context)
         self._labs = labs
-        self.executor_node = ExecutorNode(context=context)
-        self._nodes = (self, self.executor_node, DriverNode(context=context))
+        signer, self.driver = ExecutorNode(context=context), DriverNode(context=context)
+        self._nodes = (self, signer, self.driver)
         self._spinner = SingleThreadedExecutor(context=context)
         self.statuses: list[ExecutorStatus] = []
         self.sources: set[int] = set()
@@ -59,7 +59,7 @@ class Lab(Node):
         self._tokens = self.create_publisher(SignSentence, "sign_tokens", 10)
         for node in self._nodes:
             self._spinner.add_node(node)
-        assert self.executor_node.start()
+        assert signer.start()
 
     def sign(self, utterance: str, text: str) -> None:
         tokens = [
@@ -121,12 +121,8 @@ def new_lab(domain_id: int, table_directory: Path, make_sign: Callable[..., Any]
         lab.close()
 
 
-@pytest.fixture
-def lab(new_lab: NewLab) -> Lab:
-    return new_lab("-p", "trajectory_interface:=action")
-
-
-def test_motions_as_goals_of_the_action_sign_sentences_in_a_row(lab: Lab) -> None:
+def test_motions_as_goals_of_the_action_sign_sentences_in_a_row(new_lab: NewLab) -> None:
+    lab = new_lab("-p", "trajectory_interface:=action")
     lab.sign("one", "NOD TURN")
     lab.sign("two", "TURN NOD")
     lab.rest("two")
@@ -137,26 +133,19 @@ def test_motions_as_goals_of_the_action_sign_sentences_in_a_row(lab: Lab) -> Non
     assert not lab.by_topic
 
 
-def test_a_newer_text_replaces_the_one_that_is_signed_and_those_that_wait(lab: Lab) -> None:
-    setting = Parameter("preempt_policy", value="replace")
-    assert lab.executor_node.set_parameters([setting])[0].successful
-    lab.sign("old", "A-N-A-N-A-N-A-N")
-    lab.until(lambda: lab.of(SIGNING) == ["old"])
-    lab.sign("newer", "A-N")
-    lab.sign("newest", "NOD")
-    lab.rest("newest")
-    replaced = [status.utterance_id for status in lab.statuses if status.code == "replaced"]
-    assert replaced == ["old", "newer"], "each is named, once"
-    assert lab.of(SIGNING)[0] == "old" and lab.of(SIGNING)[-1] == "newest"
-    assert list(dict.fromkeys(lab.of(REFUSED))) == replaced
-
-
-def test_what_the_driver_refuses_of_others_ends_no_sentence_and_is_counted(new_lab: NewLab) -> None:
+def test_what_the_driver_refuses_of_others_is_counted_and_what_it_refuses_of_the_executor_is_named(
+    new_lab: NewLab,
+) -> None:
     lab = new_lab()
     told: list[DiagnosticArray] = []
     lab.create_subscription(DiagnosticArray, "diagnostics", told.append, 10)
     strangers = lab.create_publisher(JointTrajectory, "joint_trajectory", 10)
-    lab.create_timer(0.2, lambda: strangers.publish(JointTrajectory(joint_names=["foo"])))
+
+    def shout(motion: JointTrajectory) -> None:
+        for _ in range(5 if motion.header.frame_id else 0):  # the executor's own have one
+            strangers.publish(JointTrajectory(joint_names=["foo"]))
+
+    lab.create_subscription(JointTrajectory, "joint_trajectory", shout, 10)
     lab.sign("one", "NOD TURN")
     lab.rest("one")
     assert {status.code for status in lab.statuses} == {""}
@@ -165,28 +154,10 @@ def test_what_the_driver_refuses_of_others_ends_no_sentence_and_is_counted(new_l
         values = [pair for array in told for status in array.status for pair in status.values]
         return max((int(v.value) for v in values if v.key == "trajectories of others refused"), default=0)
 
-    lab.until(lambda: counted() > 5)
-
-
-def test_a_motion_of_its_own_that_the_driver_refuses_is_named(new_lab: NewLab) -> None:
-    lab = new_lab("-p", "max_points:=3")
-    lab.sign("one", "NOD")
-    lab.until(lambda: lab.of(REFUSED) == ["one"])
-    assert {status.code for status in lab.statuses} == {"", "trajectory_refused"}
-    assert "too_large" in next(status.message for status in lab.statuses if status.code)
-
-
-def test_a_motion_that_the_driver_refuses_with_those_of_others_is_named_at_once(new_lab: NewLab) -> None:
-    lab = new_lab("-p", "max_points:=3")
-    strangers = lab.create_publisher(JointTrajectory, "joint_trajectory", 10)
-
-    def shout(motion: JointTrajectory) -> None:
-        for _ in range(5 if motion.header.frame_id else 0):
-            strangers.publish(JointTrajectory(joint_names=["foo"]))
-
-    lab.create_subscription(JointTrajectory, "joint_trajectory", shout, 10)
-    lab.sign("one", "NOD")
-    lab.until(lambda: lab.of(REFUSED) == ["one"])
+    lab.until(lambda: counted() >= 5)
+    assert lab.driver.set_parameters([Parameter("max_points", value=3)])[0].successful
+    lab.sign("two", "NOD")
+    lab.until(lambda: lab.of(REFUSED) == ["two"])
     assert {status.code for status in lab.statuses} == {"", "trajectory_refused"}
 
 

@@ -109,7 +109,7 @@ def test_the_queue_is_told_at_every_change_listed_and_cleared(graph: Graph) -> N
     listing = graph.robot.create_client(ListQueue, "list_queue")
     clearing = graph.robot.create_client(Trigger, "clear_queue")
     graph.spin_until(lambda: listing.service_is_ready() and clearing.service_is_ready())
-    graph.publish(graph.sentence("A-N"))
+    graph.publish(graph.sentence("A"))
     graph.spin_until(lambda: ExecutorStatus.STATE_SIGNING in graph.robot.states())
     for text in ("NOD", "TURN"):
         message = graph.sentence(text)
@@ -130,7 +130,7 @@ def test_the_queue_is_told_at_every_change_listed_and_cleared(graph: Graph) -> N
 
 
 def test_an_executor_that_is_not_active_moves_nothing_and_keeps_the_queue(graph: Graph) -> None:
-    graph.publish(graph.sentence("A-N"))
+    graph.publish(graph.sentence("A"))
     elbow = COMMANDED_JOINTS.index("FrontalRightElbow")
     graph.spin_until(lambda: graph.robot.positions[elbow] < -0.5)
     graph.publish(graph.sentence("NOD"))
@@ -180,7 +180,7 @@ def test_the_result_of_a_goal_that_the_executor_does_not_know_is_no_success(grap
 def test_a_canceled_goal_brings_the_robot_back_to_rest(graph: Graph) -> None:
     client = ActionClient(graph.robot, ExecuteSentence, "execute_sentence")
     graph.spin_until(client.server_is_ready)
-    handle = graph.wait(client.send_goal_async(ExecuteSentence.Goal(sentence=graph.sentence("A-N-A-N"))))
+    handle = graph.wait(client.send_goal_async(ExecuteSentence.Goal(sentence=graph.sentence("A-N"))))
     elbow = COMMANDED_JOINTS.index("FrontalRightElbow")
     graph.spin_until(lambda: graph.robot.positions[elbow] < -0.5)
     waiting = graph.wait(client.send_goal_async(ExecuteSentence.Goal(sentence=graph.sentence("NOD"))))
@@ -254,9 +254,9 @@ def test_parameters_are_checked_and_take_effect_with_the_next_sentence(graph: Gr
 def test_a_newer_text_replaces_the_one_that_is_signed_and_those_that_wait(graph: Graph) -> None:
     (changed,) = graph.node.set_parameters([Parameter("preempt_policy", value="replace")])
     assert changed.successful
-    graph.publish(graph.sentence("A-N-A-N"))
+    graph.publish(graph.sentence("A-N"))
     graph.spin_until(lambda: graph.robot.states()[-1] == ExecutorStatus.STATE_SIGNING)
-    for text in ("A-N", "NOD"):
+    for text in ("A", "NOD"):
         graph.publish(graph.sentence(text))
     graph.spin_until(lambda: graph.robot.states()[-1] == ExecutorStatus.STATE_IDLE)
     assert sorted(graph.refused()) == [("replaced", "text 1"), ("replaced", "text 2")], "each once"

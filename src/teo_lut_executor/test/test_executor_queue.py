@@ -30,19 +30,6 @@ def world(table: Mapping[str, Sign]) -> World:
     return World(table)
 
 
-def test_a_sentence_is_signed_and_then_all_is_idle(world: World) -> None:
-    world.run(0.1)
-    ticket = world.sign("TÚ A-N", utterance_id="text", index=1, count=2)
-    world.run_until(lambda: bool(world.finished()))
-    assert world.finished() == [(ticket, Outcome.SUCCESS)]
-    assert world.activities() == [Activity.IDLE, Activity.WAITING, Activity.SIGNING, Activity.IDLE]
-    signing, again = world.statuses()[2:]
-    assert signing.sentence is not None and signing.plan is not None
-    assert (signing.sentence.utterance_id, signing.sentence.index, signing.sentence.count) == ("text", 1, 2)
-    assert [timing.token.gloss for timing in signing.plan.timings] == ["TÚ", "A", "N"]
-    assert again.stamp == pytest.approx(signing.stamp + signing.plan.duration, abs=0.15)
-
-
 def test_sentences_are_signed_in_the_order_in_which_they_came(world: World) -> None:
     tickets = [world.sign(text) for text in ("TÚ", "A", "N", "CASA")]
     world.run_until(lambda: len(world.finished()) == 4)
@@ -83,20 +70,6 @@ def test_it_waits_for_joint_states_and_for_a_driver_and_says_so_once(world: Worl
     assert world.activities()[-2:] == [Activity.SIGNING, Activity.IDLE]
 
 
-def test_a_process_that_was_held_up_does_not_take_the_joint_states_for_stale(world: World) -> None:
-    world.run(0.1)
-    ticket = world.sign("TÚ")
-    world.run(1.0)
-    world.publishes_states = False  # they wait in the node's inbox meanwhile
-    world._path_time += 3.0
-    world.now += 3.0
-    world.tick()
-    world.publishes_states = True
-    world.run_until(lambda: bool(world.finished()))
-    assert world.finished() == [(ticket, Outcome.SUCCESS)]
-    assert Activity.FAULT not in world.activities()
-
-
 def test_a_robot_that_does_not_move_is_noticed_while_signing(world: World) -> None:
     world.run(0.1)
     world.follows = lambda _: False
@@ -111,16 +84,6 @@ def test_a_robot_that_does_not_move_is_noticed_while_signing(world: World) -> No
     assert {status.sentence.utterance_id for status in named if status.sentence} == {"stuck"}
     world.run(10.0)
     assert len(world.sent) < 10, "a robot that cannot be brought to rest is left alone after some tries"
-
-
-def test_a_robot_whose_joint_states_come_late_follows_all_the_same(world: World) -> None:
-    world.link = 0.3  # [s]; a stamp tells where the robot was then
-    world.run(1.0)
-    ticket = world.sign("TÚ CASA A-N-A")
-    world.run_until(lambda: bool(world.finished()))
-    assert world.finished() == [(ticket, Outcome.SUCCESS)]
-    assert Activity.FAULT not in world.activities()
-    assert len([event for event in world.events if isinstance(event, PlanWanted)]) == 1
 
 
 def test_a_robot_that_stops_following_is_stopped_and_the_sentence_signed_again(world: World) -> None:
@@ -270,21 +233,6 @@ def test_what_a_paused_robot_waits_for_is_told_as_its_driver_says_it(world: Worl
     assert world.statuses()[-1].message == report.message
 
 
-@pytest.mark.parametrize(("clock", "path"), [(-90.0, 0.0), (60.0, 0.0), (1.5, 0.0), (1.5, 1.5), (60.0, 60.0)])
-@pytest.mark.parametrize("moment", [0.04, 2.0])
-def test_a_clock_that_is_set_or_a_process_that_is_held_up_does_not_stop_the_signing(
-    world: World, clock: float, path: float, moment: float
-) -> None:
-    world.run(0.1)
-    ticket = world.sign("TÚ A-N")
-    world.run(moment)
-    world.now += clock
-    world._path_time += path  # the robot went on while nobody looked
-    world.run_until(lambda: bool(world.finished()), most=20.0)
-    assert world.finished() == [(ticket, Outcome.SUCCESS)]
-    assert not [status.code for status in world.statuses() if status.code]
-
-
 @pytest.mark.parametrize(
     ("positions", "velocities"),
     [([np.nan] * 28, []), ([0.0] * 27, []), ([0.0] * 28, [0.0]), ([0.0] * 28, [np.inf] * 28)],
@@ -324,31 +272,6 @@ def test_the_next_sentence_waits_for_a_robot_that_is_late_to_stand_still(world: 
     np.testing.assert_allclose(starts[1].position, REST, atol=1e-3)
 
 
-def test_a_refused_sentence_does_not_hold_up_the_next(world: World) -> None:
-    bad, good = world.sign("Ω"), world.sign("TÚ")
-    world.run_until(lambda: len(world.finished()) == 2)
-    assert world.finished() == [(bad, Outcome.REFUSED), (good, Outcome.SUCCESS)]
-    refused = next(status for status in world.statuses() if status.activity == Activity.REFUSED)
-    assert refused.code == "unknown_sign" and "Ω" in refused.message
-    assert refused.sentence is not None and refused.sentence.tokens[0].gloss == "Ω"
-
-
-def test_a_sentence_waits_while_the_driver_is_silent_and_the_silence_is_told(world: World) -> None:
-    world.run(0.1)
-    world.publishes_states = False
-    world.run(1.0)
-    ticket = world.sign("TÚ")
-    world.run(1.0)
-    assert world.finished() == [] and world.sent == []
-    assert (world.statuses()[-1].activity, world.statuses()[-1].code) == (
-        Activity.FAULT,
-        "stale_joint_states",
-    )
-    world.publishes_states = True
-    world.run_until(lambda: bool(world.finished()))
-    assert world.finished() == [(ticket, Outcome.SUCCESS)]
-
-
 def test_a_sentence_whose_plan_does_not_come_is_cleared_like_those_that_wait(world: World) -> None:
     world.run(0.1)
     world.planning_time = 1e6
@@ -361,16 +284,3 @@ def test_a_sentence_whose_plan_does_not_come_is_cleared_like_those_that_wait(wor
     following = world.sign("N")
     world.run_until(lambda: len(world.finished()) == 3)
     assert world.finished()[2] == (following, Outcome.SUCCESS)
-
-
-def test_planning_that_takes_long_costs_no_sentence(world: World) -> None:
-    world.run(0.1)
-    world.planning_time = 2.0
-    tickets = [world.sign(text) for text in ("TÚ", "A", "N")]
-    world.run_until(lambda: len(world.finished()) == 3)
-    assert world.finished() == [(ticket, Outcome.SUCCESS) for ticket in tickets]
-    assert {status.activity for status in world.statuses()} <= {
-        Activity.IDLE,
-        Activity.WAITING,
-        Activity.SIGNING,
-    }

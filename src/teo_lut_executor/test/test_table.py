@@ -96,18 +96,11 @@ def test_every_state_answers_every_event() -> None:
     assert all(set(row) == set(State) for row in TABLE.values())
 
 
-def test_every_state_can_be_reached_and_left() -> None:
-    ways = {
-        (state, cell.after) for row in TABLE.values() for state, cell in row.items() if state != cell.after
-    }
-    assert {after for _, after in ways} == {before for before, _ in ways} == set(State)
-
-
 def test_the_readme_prints_the_table() -> None:
     assert printed() in README.read_text(encoding="utf-8")
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=12)
 @given(
     walk=STEPS,
     waits=st.lists(SECONDS, min_size=12, max_size=12),
