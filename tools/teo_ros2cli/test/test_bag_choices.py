@@ -21,7 +21,6 @@ from teo_ros2cli.bags.metadata import (
 from teo_ros2cli.bags.playback import Schedule
 from teo_ros2cli.bags.selection import TopicSelection, is_hidden
 from teo_ros2cli.bags.writer import Arrival, BackgroundWriter, BagWriter
-from teo_ros2cli.cli.topic.measuring import RateMeter
 from teo_ros2cli.errors import Ros2CliError
 from teo_ros2cli.interfaces import schema_of
 from teo_ros2cli.qos import QosRecord, offer_for, read_overrides, request_for, serves
@@ -174,19 +173,6 @@ def test_a_pause_and_a_change_of_rate_move_what_is_due() -> None:
     assert schedule.due(2 * 10**9) == pytest.approx(52.0)
     schedule.set_rate(10.0, 52.0)
     assert schedule.due(12 * 10**9) == pytest.approx(53.0)
-
-
-def test_rates_are_those_of_the_window() -> None:
-    meter = RateMeter(3)
-    assert meter.rate() is None
-    for time in (0, 10**9, 10**9 + 10**8, 10**9 + 2 * 10**8, 10**9 + 4 * 10**8):
-        meter.arrive(time)
-    rate = meter.rate()
-    assert rate is not None
-    assert (rate.intervals, round(rate.hertz, 6)) == (3, 7.5)
-    assert (rate.shortest, rate.longest) == (pytest.approx(0.1), pytest.approx(0.2))
-    meter.arrive(5)
-    assert meter.rate() is None
 
 
 # Writing in the background

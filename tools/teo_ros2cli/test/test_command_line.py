@@ -64,7 +64,7 @@ def test_ctrl_c_while_python_starts_is_answered_in_silence(ros2_path: Path) -> N
     began = time.monotonic()
     subprocess.run([ros2_path, "--help"], stdout=subprocess.DEVNULL, check=True)
     took = time.monotonic() - began
-    for share in (0.05, 0.2, 0.4, 0.6, 0.8):
+    for share in (0.05, 0.3, 0.7):
         running = subprocess.Popen(
             [ros2_path, "topic", "list"], stdin=subprocess.DEVNULL, stderr=subprocess.PIPE
         )
@@ -144,7 +144,6 @@ def test_an_unknown_word_is_refused_with_the_choices(
     [
         ["topic", "pub", "/t"],
         ["topic", "pub", "-r", "0", "/t", "std_msgs/String"],
-        ["topic", "pub", "-r", "nan", "/t", "std_msgs/String"],
         ["topic", "echo", "--truncate-length", "-1", "/t"],
         ["topic", "hz", "-w", "0", "/t"],
         ["bag", "record", "--custom-data", "nothing"],
@@ -163,12 +162,7 @@ def test_impossible_options_are_refused_with_the_usage(
     ("words", "sentence"),
     [
         (["/t", "std_msgs/msg/Nothing"], "'std_msgs/msg/Nothing' is invalid"),
-        (
-            ["/t", "std_msgs/msg/String", "{data: [1]}"],
-            "Failed to populate field: field 'data' takes a string",
-        ),
         (["/t", "std_msgs/msg/String", "data"], "needs to be a dictionary"),
-        (["/t", "std_msgs/msg/String", "{data: "], "not valid YAML"),
         (["-1", "-t", "3", "/t", "std_msgs/msg/String"], "Cannot pass both"),
     ],
 )
