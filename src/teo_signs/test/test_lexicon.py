@@ -116,6 +116,7 @@ def test_a_token_is_made_in_the_form_that_it_asks_for_if_the_sign_has_it(table: 
     [
         (lexical("L'A"), '"\'"'),
         (Token(gloss="W", kind=Kind.LETTER), "'W'"),
+        (Token(gloss="9", kind=Kind.NUMBER), "'9'"),
         (Token(gloss="A", kind=Kind.NUMBER), "'A'"),
         (Token(gloss="TÚ", kind=Kind.LETTER), "'TÚ'"),
         (lexical("你好"), "'你'"),
