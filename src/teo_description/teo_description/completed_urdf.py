@@ -265,10 +265,10 @@ class OtherSide:
 
     @cached_property
     def _poses(self) -> Mapping[str, Array]:
-        return _link_poses(self._root)
+        return link_poses(self._root)
 
 
-def _link_poses(root: ET.Element) -> Mapping[str, Array]:
+def link_poses(root: ET.Element) -> Mapping[str, Array]:
     """Pose of every link that a joint holds, with all joints at zero, in the root's axes. Shapes (4, 4)."""
     joints = {_end(joint, "child"): joint for joint in root.iter("joint")}
     found: dict[str, Array] = {}
@@ -307,7 +307,7 @@ def urdf_hash(urdf: str) -> str:
 
 def joint_directions(urdf: ET.Element) -> Mapping[str, Array]:
     """The unit vectors along which joints' axes point with all joints at zero, in the root's frame."""
-    poses, found = _link_poses(urdf), {}
+    poses, found = link_poses(urdf), {}
     for joint in urdf.iter("joint"):
         axis = joint.find("axis")
         if joint.attrib["type"] != "fixed":

@@ -324,12 +324,7 @@ class Humanoid:
         """
         meshes = self.file.meshes
         folder = self.urdf_path().parent if meshes is None else installed_path(meshes.package, meshes.folder)
-        if folder is None:
-            return None
-        if not name.startswith("package://"):
-            return path if (path := folder / name).is_file() else None
-        below = name.removeprefix("package://")
-        return next((path for above in folder.parents if (path := above / below).is_file()), None)
+        return None if folder is None else find_mesh(folder, name)
 
     @cached_property
     def description_hash(self) -> str:
@@ -415,6 +410,19 @@ class Humanoid:
             if any(len(posture) != count for posture in postures):
                 message = f"{self._path}: {field}: expected an angle for each of the arm's {count} joints"
                 raise DescriptionError("bad_robot", message)
+
+
+def find_mesh(folder: Path, name: str) -> Path | None:
+    """Where a mesh file is, or None.
+
+    Args:
+        folder: Of the URDF.
+        name: As `Humanoid.mesh_path` has it.
+    """
+    if not name.startswith("package://"):
+        return path if (path := folder / name).is_file() else None
+    below = name.removeprefix("package://")
+    return next((path for above in folder.parents if (path := above / below).is_file()), None)
 
 
 def robot_folders() -> tuple[Path, ...]:

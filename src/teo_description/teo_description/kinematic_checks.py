@@ -5,12 +5,15 @@
 from __future__ import annotations
 
 import math
+import xml.etree.ElementTree as ET
 from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from teo_common.arrays import Array
+from teo_description.completed_urdf import link_poses
 from teo_description.humanoid import Humanoid
 from teo_description.robot import Robot
 from teo_description.robot_schema import AXES
@@ -82,10 +85,12 @@ def frame_checks(robot: Robot) -> Iterator[Finding]:
 def symmetry_checks(robot: Robot) -> Iterator[Finding]:
     """Mirrored positions of the joints give the mirror image."""
     worst, frame = _mirror_deviation(robot)
+    near = worst <= _MIRROR_TOLERANCE
     yield Finding(
-        worst <= _MIRROR_TOLERANCE,
+        near,
         f"left and right are mirror images within {_MIRROR_TOLERANCE * 1e3:.0f} mm",
-        f"worst of {_POSTURES} random postures: {worst * 1e3:.2f} mm, {frame}",
+        f"worst of {_POSTURES} random postures: {worst * 1e3:.2f} mm, {frame}"
+        + (f"; mirror images are {', '.join(_mirrored_origins(robot.humanoid))}" if not near else ""),
         "origins",
     )
     humanoid = robot.humanoid
@@ -120,6 +125,54 @@ def _mirror_deviation(robot: Robot) -> tuple[float, str]:
         there = robot.placements(robot.configuration(image), others)[:, :3, 3]
         worst = np.maximum(worst, np.linalg.norm(here * [1.0, -1.0, 1.0] - there, axis=1))
     return float(worst.max()), frames[int(worst.argmax())]
+
+
+# An origin that differs from the mirror image by less is rounded [m], [rad].
+_ROUNDED = 1e-3, math.radians(0.5)
+
+# What a mirror image between left and right may do to the axes of a link, each makers' own choice.
+_FLIPS = [np.diag([*signs, 1.0]) for signs in ((1, -1, 1), (-1, 1, 1), (1, 1, -1), (-1, -1, -1))]
+
+
+def _mirrored_origins(humanoid: Humanoid) -> Iterator[str]:
+    """Origins of left joints that are no mirror images of right ones, as they should be: for ``origins``."""
+    tree = humanoid.urdf_tree()
+    poses = {
+        **dict.fromkeys((link.attrib["name"] for link in tree.iter("link")), np.eye(4)),
+        **link_poses(tree),
+    }
+
+    def image(link: str) -> Array:
+        """Of the link on the other side, in whichever axes are nearest to those that it has there."""
+        there = poses[humanoid.mirrored_name(link)]
+        images = [_FLIPS[0] @ poses[link] @ flip for flip in _FLIPS]
+        nearest: Array = max(images, key=lambda pose: float((pose[:3, :3] * there[:3, :3]).sum()))
+        return nearest
+
+    for joint in tree.iter("joint"):
+        name = joint.attrib["name"]
+        left = humanoid.mirrored_name(name)
+        parent, child = (_end(joint, end) for end in ("parent", "child"))
+        if (
+            joint.attrib["type"] == "fixed"
+            or left == name
+            or not any(right in name for _, right in humanoid.file.mirror)
+        ):
+            continue
+        wanted = np.linalg.inv(image(parent)) @ image(child)
+        parent, child = map(humanoid.mirrored_name, (parent, child))
+        off = np.linalg.inv(wanted) @ np.linalg.inv(poses[parent]) @ poses[child]
+        turned = Rotation.from_matrix(off[:3, :3]).magnitude()
+        if np.linalg.norm(off[:3, 3]) > _ROUNDED[0] or turned > _ROUNDED[1]:
+            turns = Rotation.from_matrix(wanted[:3, :3]).as_euler("xyz", degrees=True)
+            xyz = ", ".join(f"{x:.5f}" for x in wanted[:3, 3])
+            yield f"{left}: {{xyz: [{xyz}], rpy_deg: [{', '.join(f'{x:.3f}' for x in turns)}]}}"
+
+
+def _end(joint: ET.Element, end: str) -> str:
+    element = joint.find(end)
+    assert element is not None, "a URDF's joint has both ends"
+    return element.attrib["link"]
 
 
 def hand_frames(humanoid: Humanoid) -> tuple[str, ...]:

@@ -15,11 +15,12 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
+from teo_common.arrays import Array
 from teo_description.errors import DescriptionError
 from teo_description.humanoid import available_robots, load_humanoid, robot_folders
 from teo_description.kinematic_checks import Finding, frame_checks, hand_checks, limit_checks, symmetry_checks
 from teo_description.robot import Robot
-from teo_description.space_checks import collision_checks, reach_checks
+from teo_description.space_checks import ArmReach, collision_checks, reach_checks
 
 if TYPE_CHECKING:
     from teo_description.pictures.rendering import Image, Renderer
@@ -65,6 +66,18 @@ def _show(name: _Name) -> None:
     _console.print(table)
 
 
+@_app.command("links")
+def _links(urdf: Annotated[Path, typer.Argument(help="A URDF that has no robot.yaml yet.")]) -> None:
+    """Say of each link of a URDF where it is, what moves it, and the box that holds its meshes."""
+    from teo_description.urdf_links import describe_links
+
+    try:
+        for line in describe_links(urdf):
+            _console.print(line, highlight=False, markup=False, soft_wrap=True)
+    except DescriptionError as error:
+        _fail(error)
+
+
 @_app.command("check")
 def _check(
     name: _Name,
@@ -99,6 +112,43 @@ def _check(
         sentence = f"{len(failed)} checks failed; look at {fields} in robot.yaml"
         _errors.print(f"robots: {sentence}", style="red", markup=False, highlight=False, soft_wrap=True)
         raise typer.Exit(1)
+
+
+@_app.command("pose")
+def _pose(
+    name: _Name,
+    palm: Annotated[str, typer.Option(help="Where the right palm is: x,y,z [m].")],
+    elbow: Annotated[str, typer.Option(help="Where the right elbow is: x,y,z [m].")],
+    fingers: Annotated[str, typer.Option(help="Which way the fingers point: x,y,z.")],
+) -> None:
+    """Find the arm for a posture, with its mirror image: what `postures` and `detour` want in degrees."""
+    try:
+        robot = Robot.load(name)
+        arm = ArmReach(robot, "right").posture(*(_vector(text) for text in (palm, elbow, fingers)))
+    except DescriptionError as error:
+        _fail(error)
+    humanoid = robot.humanoid
+    signs = humanoid.mirror_signs(list(arm))
+    image = {humanoid.mirrored_name(n): x * s for (n, x), s in zip(arm.items(), signs.tolist(), strict=True)}
+    for posture in (arm, image):
+        for joint, angle in posture.items():
+            _console.print(f"{joint}: {math.degrees(angle):.0f}.0", highlight=False, soft_wrap=True)
+    placed = robot.placement(robot.configuration({**arm, **image}), humanoid.file.hand.palm)[:3, 3]
+    nearest = robot.clearance(robot.configuration({**arm, **image}))
+    _console.print(
+        f"palm at {', '.join(f'{x:.2f}' for x in placed)}; {nearest.first} and {nearest.second} are "
+        f"{nearest.distance * 1e3:.0f} mm apart",
+        highlight=False,
+        soft_wrap=True,
+    )
+
+
+def _vector(text: str) -> Array:
+    try:
+        x, y, z = (float(number) for number in text.split(","))
+    except ValueError as error:
+        raise DescriptionError("bad_point", f"expected x,y,z, got {text!r}") from error
+    return np.array([x, y, z])
 
 
 def _frames(robot: Robot) -> Iterator[str]:

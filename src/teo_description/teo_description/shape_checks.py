@@ -18,6 +18,7 @@ from teo_description.humanoid import SIDES, Humanoid
 from teo_description.kinematic_checks import Finding
 from teo_description.pictures.visual_parts import Mesh, Part, visual_parts
 from teo_description.robot import Robot
+from teo_description.urdf_links import box_about
 
 # So far a part may stand out of all shapes [m]: a hand is as thick. GR1T2's trunk, whose shapes are measured
 # on its meshes, stands out by 28 mm.
@@ -46,6 +47,7 @@ def shape_checks(robot: Robot) -> Iterator[Finding]:
         )
     seen = _surfaces(robot, missing)
     shapes = _Shapes(robot)
+    yield _places_on_shapes(robot.humanoid, shapes)
     outside = dict(_parts_outside(robot, seen, shapes))
     boxes = {link: _box(robot, link, seen[link]) for link in outside}
     yield Finding(
@@ -63,6 +65,27 @@ def shape_checks(robot: Robot) -> Iterator[Finding]:
         f"every side of a shape is within {_SHAPE_OUTSIDE * 1e3:.0f} mm of what is seen",
         ", ".join(f"{link} {far * 1e3:.0f} mm" for link, far in wide.items()) or "all are",
         "collision.shapes",
+    )
+
+
+# So far a place of the body may be from the shapes, in or out [m]: TEO's shoulder is 28 mm before them.
+_PLACE_OFF = 0.03
+
+
+def _places_on_shapes(humanoid: Humanoid, shapes: _Shapes) -> Finding:
+    places = {name: place.point for name, place in humanoid.file.places.items() if place.body}
+    away = dict(zip(places, shapes.distances(np.array(list(places.values()))).tolist(), strict=True))
+    off = [
+        f"{name} {abs(far) * 1e3:.0f} mm {'in' if far < 0.0 else 'before'} them"
+        for name, far in away.items()
+        if abs(far) > _PLACE_OFF
+    ]
+    return Finding(
+        not off,
+        f"places of the body are on the shapes within {_PLACE_OFF * 1e3:.0f} mm",
+        ", ".join(off) or "all are",
+        "places",
+        needed=False,  # a sign whose place is off is made beside it
     )
 
 
@@ -220,6 +243,4 @@ def _box(robot: Robot, link: str, points: Array) -> str:
     """The box that holds a link, as it is written under ``collision.shapes``."""
     pose = robot.placement(robot.configuration({}), link)
     own = (points - pose[:3, 3]) @ pose[:3, :3]
-    low, high = own.min(axis=0), own.max(axis=0)
-    middle, size = (", ".join(f"{x:.3f}" for x in values) for values in (0.5 * (low + high), high - low))
-    return f"{{xyz: [{middle}], box: [{size}]}}"
+    return box_about(own)

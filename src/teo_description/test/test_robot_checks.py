@@ -90,7 +90,7 @@ def test_parts_without_a_shape_and_shapes_beside_their_parts_are_named_with_how_
         collision["head"].remove("head_pitch_link")
         collision["shapes"]["right_upper_arm_yaw_link"][0]["xyz"] = [0.0, 0.15, -0.096]
 
-    outside, wide = shape_checks(changed(change))
+    _, outside, wide = shape_checks(changed(change))
     far = {
         name: int(by) for name, by in re.findall(r"(\w+) is (\d+) mm outside: \{xyz: \[", outside.measured)
     }
@@ -147,6 +147,36 @@ def test_robots_are_listed_and_shown(robots):
     assert code == 0
     assert "right_elbow_pitch_joint" in said
     assert "-130" in said  # its lower limit, -2.27 rad
+
+
+def test_the_links_of_a_bare_urdf_are_told_with_what_moves_them(robots):
+    code, said, _ = robots("links", SECOND / "urdf" / "gr1t2_inspire_hand.urdf")
+    assert code == 0
+    (elbow,) = [line for line in said.splitlines() if line.startswith("right_lower_arm_pitch_link: ")]
+    # Its own line of the file: axis y, -2.27 to 2.27 rad, 5.24 rad/s.
+    assert "moved by right_elbow_pitch_joint about (0.00, 1.00, 0.00), -130 to 130 deg, 300 deg/s" in elbow
+
+
+def test_a_posture_is_found_for_a_palm_and_an_elbow_and_written_for_both_sides(robots):
+    code, said, _ = robots(
+        "pose", "gr1t2", "--palm=0.3,-0.2,0.25", "--elbow=0,-0.3,0.15", "--fingers=1,0.3,0"
+    )
+    assert code == 0
+    angles = dict(re.findall(r"^(\w+): (-?\d+\.0)$", said, re.MULTILINE))
+    robot = Robot.load("gr1t2")
+    posture = {name: np.radians(float(angle)) for name, angle in angles.items()}
+    right, left = robot.placements(robot.configuration(posture), ("R_palm", "L_palm"))[:, :3, 3]
+    assert np.linalg.norm(right - (0.3, -0.2, 0.25)) < 0.05
+    assert np.linalg.norm(left * (1.0, -1.0, 1.0) - right) < 0.01
+    code, _, said = robots("pose", "gr1t2", "--palm=0.3", "--elbow=0,0,0", "--fingers=1,0,0")
+    assert code == 1
+    assert "bad_point" in said
+
+
+def test_what_a_left_joint_should_be_as_a_mirror_image_is_told(changed):
+    (sides, _) = symmetry_checks(changed(put("origins", value={})))
+    # As it was worked out by hand for the robot's file.
+    assert "L_index_proximal_joint: {xyz: [0.03227, -0.00029, -0.13653], rpy_deg: [88.001, " in sides.measured
 
 
 @pytest.mark.parametrize("command", ["show", "check"])

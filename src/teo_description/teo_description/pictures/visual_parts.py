@@ -242,20 +242,27 @@ def _shape(item: Any) -> Mesh:
 
 def _mesh_part(robot: Robot, link: str, visual: ET.Element, path: Path) -> Part:
     frame = robot.model.frames[robot.model.getFrameId(link, pin.FrameType.BODY)]
-    origin, file = visual.find("origin"), visual.find("geometry/mesh")
-    at = {} if origin is None else origin.attrib
-    xyz, rpy = (_numbers(at.get(key, "0 0 0")) for key in ("xyz", "rpy"))
-    scale = _numbers("1 1 1" if file is None else file.get("scale", "1 1 1"))
-    placement = frame.placement * pin.SE3(pin.rpy.rpyToMatrix(*rpy), xyz)
-    surface = from_file(path, scale)
     colour = visual.find("material/color")
     rgba = _GREY if colour is None else _numbers(colour.attrib["rgba"])
     return Part(
         link,
         frame.parentJoint,
-        moved(surface, placement.rotation, placement.translation),
+        moved(visual_mesh(visual, path), frame.placement.rotation, frame.placement.translation),
         (float(rgba[0]), float(rgba[1]), float(rgba[2])),
     )
+
+
+def visual_mesh(visual: ET.Element, path: Path) -> Mesh:
+    """The mesh of a URDF's ``visual`` in the frame of its link.
+
+    Raises:
+        DescriptionError: As `from_file`.
+    """
+    origin, file = visual.find("origin"), visual.find("geometry/mesh")
+    at = {} if origin is None else origin.attrib
+    xyz, rpy = (_numbers(at.get(key, "0 0 0")) for key in ("xyz", "rpy"))
+    scale = _numbers("1 1 1" if file is None else file.get("scale", "1 1 1"))
+    return moved(from_file(path, scale), pin.rpy.rpyToMatrix(*rpy), xyz)
 
 
 def _numbers(text: str) -> NDArray[np.float64]:
