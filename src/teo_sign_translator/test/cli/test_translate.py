@@ -76,6 +76,12 @@ def test_json_holds_everything_one_object_a_line() -> None:
     assert broken["error"]["code"] == "broken_encoding"
 
 
+def test_a_text_that_cannot_be_translated_is_refused_with_a_reason() -> None:
+    code, out, err = _run("😀")
+    assert (code, out) == (1, "")
+    assert err.startswith("nothing_to_sign: ")
+
+
 def test_an_unknown_model_is_refused_with_those_available() -> None:
     code, out, err = _run("--model", "gpt", "Hola")
     assert (code, out) == (1, "")

@@ -36,6 +36,7 @@ def text(tmp_path: Path) -> Path:
     ("file", "old", "new", "named"),
     [
         ("reading.yaml", "numbers:\n", "numerals:\n", "sections"),
+        ("reading.yaml", "  joiner: ", "  joint: ", "numbers"),
         ("reading.yaml", "  month_first: true", "  month_first: maybe", "month_first"),
         ("reading.yaml", "  ordinal: '(", "  ordinal: '((", "ordinal"),
         ("reading.yaml", "  variants: {}", "  variants: {once: often}", "variants"),

@@ -171,6 +171,7 @@ def test_every_form_of_the_tables_is_read_back() -> None:
         ("grande", "A:fs", "grande"),
         ("crisis", "N:fp", "crisis"),
         ("7", "NUM", "siete"),
+        ("1234", "NUM", "1234"),
         ("algún", "DET:quant:ms", "algún"),
         ("comer", "V:sub:impf:1s", "comiera"),
     ],

@@ -41,6 +41,7 @@ def inflection(sentence: str, gloss: str) -> str:
         ("Yo te ayudo.", "AYUDAR", "1>2"),
         ("Te ayudo.", "AYUDAR", "1>2"),
         ("Quiero ayudarte.", "AYUDAR", "1>2"),
+        ("Me gustaría ayudarte.", "AYUDAR", "1>2"),
         ("Ana te ayuda.", "AYUDAR", "3>2"),
         ("Lo ayudo.", "AYUDAR", "1>3"),
         ("Ayudo a Ana.", "AYUDAR", "1>3"),

@@ -95,6 +95,7 @@ def test_reading_finds_where_sentences_end(text: str, ends: list[tuple[str, bool
     ("words", "value", "used"),
     [
         ("un", 0, 0),
+        ("cien", 100, 1),
         ("una casa", 0, 0),
         ("dieciseis años", 16, 1),
         ("treinta y pico", 30, 1),

@@ -32,6 +32,8 @@ def _forms(sentence: str) -> list[str]:
         ("Mi teléfono es 600 257 707.", "mi|teléfono|es|600257707|."),
         ("A las 15.30 h o 9h05", "a|las|15:30|horas|o|9:05"),
         ("el 25/12 y el 1/2", "el|25|diciembre|y|el|1|febrero"),
+        ("1/2 kilo el 3-4-2024", "medio|kilo|el|3|abril|2024"),
+        ("ciento un días", "101|días"),
         ("3/4 de hora, 2/3, 7/3", "3|cuartos|de|hora|,|2|tercios|,|7|3"),
         ("a Ana.Gil-2@uc3m.es, ya", "a|ana.gil-2@uc3m.es|,|ya"),
         ("en https://www.cnse.es/lse/ o cnse.es.", "en|www.cnse.es/lse/|o|cnse.es|."),
