@@ -44,18 +44,21 @@ def completed_urdf(text: str, robot: RobotFile, where: str) -> Urdf:
         root = ET.fromstring(text)
     except ET.ParseError as error:
         raise DescriptionError("bad_robot", f"{where}: urdf: expected XML: {error}") from error
-    links = {link.get("name", ""): link for link in root.iter("link")}
+    links = {link.get("name", ""): link for link in root.findall("link")}
     joints = {joint.get("name", ""): joint for joint in root.findall("joint")}
     tops = set(links) - {_end(joint, "child") for joint in joints.values()}
     if root.tag != "robot" or len(tops) != 1:
         got = f"{len(tops)} links that no joint holds" if root.tag == "robot" else f"<{root.tag}>"
         raise DescriptionError("bad_robot", f"{where}: urdf: expected a robot with one root link, got {got}")
     _check_names(robot, links, joints, where)
-    changes = (robot.limits, robot.follows, robot.origins, robot.frames, robot.collision.shapes)
+    endless = [joint for joint in joints.values() if joint.get("type") == "continuous"]
+    changes = (endless, robot.limits, robot.follows, robot.origins, robot.frames, robot.collision.shapes)
     if not any(changes) and _ROOT_LINK in links:
         return Urdf(text, root)
     if _ROOT_LINK not in links:
         _add_root(root, *tops)
+    for joint in endless:
+        _set_one_turn(joint)
     for name, limit in robot.limits.items():
         _set_limit(joints[name], limit)
     for name, follow in robot.follows.items():
@@ -77,7 +80,7 @@ def completed_urdf(text: str, robot: RobotFile, where: str) -> Urdf:
 def with_speeds(text: str, speeds: Mapping[str, float]) -> Urdf:
     """A URDF with other greatest speeds of some joints [rad/s], and of those that follow them."""
     root = ET.fromstring(text)
-    for joint in root.iter("joint"):
+    for joint in root.findall("joint"):
         mimic, limit = joint.find("mimic"), joint.find("limit")
         leader = joint.attrib["name"] if mimic is None else mimic.attrib["joint"]
         if limit is not None and leader in speeds:
@@ -123,6 +126,16 @@ def _add_root(root: ET.Element, top: str) -> None:
     joint = ET.SubElement(root, "joint", name=f"{_ROOT_LINK}_fixed", type="fixed")
     ET.SubElement(joint, "parent", link=_ROOT_LINK)
     ET.SubElement(joint, "child", link=top)
+
+
+def _set_one_turn(joint: ET.Element) -> None:
+    """A joint that turns without end as one that turns once: an angle is one number for all who read it."""
+    joint.set("type", "revolute")
+    limit = joint.find("limit")
+    if limit is None:
+        limit = ET.SubElement(joint, "limit", effort="0", velocity="0")
+    limit.set("lower", repr(-math.pi))
+    limit.set("upper", repr(math.pi))
 
 
 def _set_limit(joint: ET.Element, limit: Limit) -> None:
@@ -270,7 +283,7 @@ class OtherSide:
 
 def link_poses(root: ET.Element) -> Mapping[str, Array]:
     """Pose of every link that a joint holds, with all joints at zero, in the root's axes. Shapes (4, 4)."""
-    joints = {_end(joint, "child"): joint for joint in root.iter("joint")}
+    joints = {_end(joint, "child"): joint for joint in root.findall("joint")}
     found: dict[str, Array] = {}
 
     def pose(link: str) -> Array:
@@ -308,7 +321,7 @@ def urdf_hash(urdf: str) -> str:
 def joint_directions(urdf: ET.Element) -> Mapping[str, Array]:
     """The unit vectors along which joints' axes point with all joints at zero, in the root's frame."""
     poses, found = link_poses(urdf), {}
-    for joint in urdf.iter("joint"):
+    for joint in urdf.findall("joint"):
         axis = joint.find("axis")
         if joint.attrib["type"] != "fixed":
             values = [1.0, 0.0, 0.0] if axis is None else [float(x) for x in axis.attrib["xyz"].split()]

@@ -361,7 +361,7 @@ class Humanoid:
     @cache  # noqa: B019  a humanoid lives as long as the process
     def _limit_table(self, hand_drive: str) -> Mapping[str, tuple[float, ...]]:
         limits = {}
-        for joint in self.urdf_tree(hand_drive).iter("joint"):
+        for joint in self.urdf_tree(hand_drive).findall("joint"):
             limit = joint.find("limit")
             if limit is not None and joint.find("mimic") is None:
                 keys = ("lower", "upper", "velocity", "effort")

@@ -138,7 +138,7 @@ def _mirrored_origins(humanoid: Humanoid) -> Iterator[str]:
     """Origins of left joints that are no mirror images of right ones, as they should be: for ``origins``."""
     tree = humanoid.urdf_tree()
     poses = {
-        **dict.fromkeys((link.attrib["name"] for link in tree.iter("link")), np.eye(4)),
+        **dict.fromkeys((link.attrib["name"] for link in tree.findall("link")), np.eye(4)),
         **link_poses(tree),
     }
 
@@ -149,7 +149,7 @@ def _mirrored_origins(humanoid: Humanoid) -> Iterator[str]:
         nearest: Array = max(images, key=lambda pose: float((pose[:3, :3] * there[:3, :3]).sum()))
         return nearest
 
-    for joint in tree.iter("joint"):
+    for joint in tree.findall("joint"):
         name = joint.attrib["name"]
         left = humanoid.mirrored_name(name)
         parent, child = (_end(joint, end) for end in ("parent", "child"))
@@ -218,7 +218,7 @@ def limit_checks(robot: Robot) -> Iterator[Finding]:
 
 
 def _followers_beyond(humanoid: Humanoid) -> Iterator[str]:
-    for joint in humanoid.urdf_tree().iter("joint"):
+    for joint in humanoid.urdf_tree().findall("joint"):
         mimic, limit = joint.find("mimic"), joint.find("limit")
         if mimic is None or limit is None or mimic.attrib["joint"] not in humanoid.commanded_joints:
             continue

@@ -58,7 +58,7 @@ class Robot:
     def _following(self) -> tuple[Matrix, Matrix]:
         """Matrix and offset that make a configuration of `all_joints`' values. Shapes (nq, joints), (nq,)."""
         matrix, offset = np.zeros((self.model.nq, len(self._names))), np.zeros(self.model.nq)
-        for joint in self.humanoid.urdf_tree().iter("joint"):
+        for joint in self.humanoid.urdf_tree().findall("joint"):
             if joint.attrib["type"] == "fixed":
                 continue
             name = joint.attrib["name"]

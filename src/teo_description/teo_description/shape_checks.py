@@ -93,7 +93,7 @@ def _missing_meshes(humanoid: Humanoid) -> set[str]:
     """Links with a mesh that is not on this machine."""
     return {
         link.attrib["name"]
-        for link in humanoid.urdf_tree().iter("link")
+        for link in humanoid.urdf_tree().findall("link")
         for mesh in link.iterfind("visual/geometry/mesh")
         if humanoid.mesh_path(mesh.attrib["filename"]) is None
     }
@@ -201,7 +201,8 @@ def _shapes_outside(
     """Links with a shape whose side is off what it and its neighbours show, and by how much [m]."""
     joints = {link: robot.moving_joint(link) for link in seen}
     unseen = {robot.moving_joint(link) for link in missing}
-    hulls = {link: ConvexHull(points).equations for link, points in seen.items()}
+    # Joggled: a part may be flat.
+    hulls = {link: ConvexHull(points, qhull_options="QJ").equations for link, points in seen.items()}
     far: dict[str, float] = {}
     for link, middles in shapes.sides():
         about = _neighbours(robot, robot.moving_joint(link))

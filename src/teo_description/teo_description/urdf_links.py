@@ -31,8 +31,8 @@ def describe_links(urdf: Path) -> Iterator[str]:
     except ET.ParseError as error:
         raise DescriptionError("bad_robot", f"{urdf}: expected XML: {error}") from error
     poses, directions = link_poses(root), joint_directions(root)
-    joints = {child.attrib["link"]: joint for joint in root.iter("joint") for child in joint.iter("child")}
-    for link in root.iter("link"):
+    joints = {child.attrib["link"]: joint for joint in root.findall("joint") for child in joint.iter("child")}
+    for link in root.findall("link"):
         name = link.attrib["name"]
         pose = poses.get(name, np.eye(4))
         said = f"{name}: at ({_row(pose[:3, 3], 3)}), x ({_row(pose[:3, 0])}), z ({_row(pose[:3, 2])})"

@@ -110,6 +110,23 @@ def test_a_well_described_robot_passes():
         assert {field for field in failed(check(robot)) if field != "meshes"} == set()
 
 
+def test_joints_of_simulators_are_passed_over_and_endless_ones_turn_once(changed, tmp_path):
+    # As in Valkyrie's URDF: transmissions and sensors name joints, and a laser turns without end.
+    path = tmp_path / "teo" / "robots" / "mine" / "urdf" / "gr1t2_inspire_hand.urdf"
+    others = '<transmission name="t"><joint name="head_yaw_joint"/></transmission><gazebo><joint/></gazebo>'
+    laser = """<link name="laser"/><joint name="laser_joint" type="continuous">
+        <parent link="head_yaw_link"/><child link="laser"/><axis xyz="0 0 1"/></joint>"""
+    path.write_text(path.read_text().replace("</robot>", f"{others}{laser}</robot>"))
+    robot, plain = changed(put("title", value="with a laser")), Robot.load("gr1t2")
+    for check in (frame_checks, symmetry_checks, limit_checks, hand_checks, collision_checks):
+        assert failed(check(robot)) == {}
+    bent = {"right_elbow_pitch_joint": -1.0}
+    here, there = (one.placement(one.configuration(bent), "R_palm") for one in (robot, plain))
+    np.testing.assert_allclose(here, there, atol=1e-12)
+    point = np.array([0.3, -0.15, 0.3])
+    assert ArmReach(robot, "right").to(point, "R_palm", body=False).ok
+
+
 def test_an_arm_reaches_what_is_near_and_not_what_is_far():
     robot = Robot.load("gr1t2")
     arm = ArmReach(robot, "right")

@@ -192,7 +192,7 @@ def visual_parts(robot: Robot) -> list[Part]:
     """
     root = ET.fromstring(robot.humanoid.urdf_text())
     parts, bare = [], set()
-    for link in root.iter("link"):
+    for link in root.findall("link"):
         for visual in link.findall("visual"):
             file = visual.find("geometry/mesh")
             if file is None:

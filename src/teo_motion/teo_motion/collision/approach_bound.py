@@ -102,7 +102,7 @@ class _Parts:
         self._columns = {name: column for column, name in enumerate(humanoid.commanded_joints)}
         # Which commanded joint turns each joint of the model, and how much [1].
         self._turned_by: dict[int, tuple[int, float]] = {}
-        for joint in humanoid.urdf_tree().iter("joint"):
+        for joint in humanoid.urdf_tree().findall("joint"):
             mimic = joint.find("mimic")
             name, times = joint.attrib["name"], 1.0
             if mimic is not None:
