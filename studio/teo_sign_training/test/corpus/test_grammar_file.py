@@ -63,6 +63,8 @@ def test_every_word_of_the_lists_is_in_the_lexicon(generator):
 @pytest.mark.parametrize(
     ("file", "old", "new", "named"),
     [
+        ("sentences.yaml", '{N} {P:S} ."\n        signs', '{Z} {P:S} ."\n        signs', "statement.plain"),
+        ("phrases.yaml", "este~n {n}", "esto~n {n}", "someone.this"),
         ("sentences.yaml", 'signs: "{S} {P} {N}"', 'signs: "{S} {Q} {N}"', "statement.plain"),
         ("sentences.yaml", 'pick: {S: "subject"', 'pick: {S: "subjetc"', "statement.plain"),
         ("sentences.yaml", 'example: {text: "Compro el l', 'exmaple: {text: "Compro el l', "statement.plain"),
