@@ -120,9 +120,7 @@ class Provenance(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     licence: Annotated[Text, Meta(description="Terms of the source, as an SPDX identifier or a sentence.")]
     description_hash: Annotated[
         _Hash,
-        Meta(
-            description="SHA-256 of the URDF text that the joint angles were made for."
-        ),
+        Meta(description="SHA-256 of the URDF text that the joint angles were made for."),
     ]
     notes: Annotated[str, Meta(description="What a reader must know beside the numbers; may be empty.")]
     review: Annotated[
