@@ -194,6 +194,8 @@ def readers_folder(folder: Path) -> Path:
     """A folder with what a reader would have there: the checkout, and files of his own."""
     folder.mkdir()
     (folder / "test").symlink_to(ROOT / "test")
+    (folder / "src").mkdir()
+    (folder / "src" / "teo_description").symlink_to(ROOT / "src" / "teo_description")  # which no command changes
     shutil.copytree(ROOT / "bags", folder / "bags")
     (folder / "env.sh").write_text(f". {ROOT}/env.sh\n")
     make = f"@$(MAKE) --no-print-directory -C {ROOT} OUT=$(CURDIR)/out"
