@@ -195,7 +195,8 @@ def readers_folder(folder: Path) -> Path:
     folder.mkdir()
     (folder / "test").symlink_to(ROOT / "test")
     (folder / "src").mkdir()
-    (folder / "src" / "teo_description").symlink_to(ROOT / "src" / "teo_description")  # which no command changes
+    robots = Path("src") / "teo_description"  # no command changes it
+    (folder / robots).symlink_to(ROOT / robots)
     shutil.copytree(ROOT / "bags", folder / "bags")
     (folder / "env.sh").write_text(f". {ROOT}/env.sh\n")
     make = f"@$(MAKE) --no-print-directory -C {ROOT} OUT=$(CURDIR)/out"
