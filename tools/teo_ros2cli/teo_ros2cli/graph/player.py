@@ -173,7 +173,7 @@ class Player:
         while not self._stopped():
             self._command(self)
             now = time.monotonic()
-            self._tick(now)
+            self._tick(now, moment)
             if self._schedule.paused:
                 if self._single_steps:
                     self._single_steps -= 1
@@ -192,10 +192,11 @@ class Player:
         while not self._stopped() and (left := end - time.monotonic()) > 0:
             time.sleep(min(left, _STEP))
 
-    def _tick(self, now: float) -> None:
+    def _tick(self, now: float, moment: int) -> None:
+        """Publish the clock if it is time; on a late machine it does not pass what is played next [ns]."""
         if self._clock is not None and self._settings.clock and now >= self._next_tick:
             self._next_tick = max(self._next_tick + 1 / self._settings.clock, now)
-            self._clock.publish(self._schedule.time_at(now))
+            self._clock.publish(min(self._schedule.time_at(now), moment))
 
     def _advertise(self, topic: TopicRecord) -> None:
         name = self._settings.remap.get(topic.name, topic.name)
