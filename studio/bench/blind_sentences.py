@@ -16,13 +16,11 @@ from statistics import median
 from typing import Any
 
 from glosses.measures import Glosses, fewest_edits, overlap
-from glosses.systems import SENTENCES, Judged, System, english_systems, judged, published, systems
+from glosses.systems import SENTENCES, Judged, System, judged, sentence_set, translating
 from report import Figure, share
 from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 
 _RECORD = SENTENCES / "blind.json"
-#: Not there while they are used up: all have been looked at.
-BLIND = SENTENCES / "blind.txt"
 LANGUAGES = (DEFAULT_LANGUAGE, "ase")
 
 
@@ -30,9 +28,8 @@ def measure(language: str = DEFAULT_LANGUAGE) -> list[Figure]:
     """Figures of a language's shipped model, measured now if it has not seen the sentences."""
     record = _recorded()
     kept = record.setdefault(language, {})
-    if _weights(language) not in kept and (language != DEFAULT_LANGUAGE or BLIND.is_file()):
-        every = systems() if language == DEFAULT_LANGUAGE else english_systems(language)
-        kept[_weights(language)] = _measured(_blind(language), every)
+    if _weights(language) not in kept and _there(language):
+        kept[_weights(language)] = _measured(judged("blind", language), translating(language))
         _RECORD.write_text(json.dumps(record, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
     return list(figures(language))
 
@@ -43,7 +40,7 @@ def figures(language: str) -> Iterator[Figure]:
     results = _recorded().get(language, {}).get(_weights(language))
     if results is None:
         command = f"make bench BENCH='blind_sentences --language {language}'"
-        done = command if language != DEFAULT_LANGUAGE or BLIND.is_file() else "they are used up"
+        done = command if _there(language) else "they are used up"
         yield Figure(what, f"not measured for this model: {done}")
         return
     total, by_system = results["sentences"], results["systems"]
@@ -61,8 +58,9 @@ def figures(language: str) -> Iterator[Figure]:
         yield Figure(f"{what}: bag precision, recall [%]", ", ".join(bags))
 
 
-def _blind(language: str) -> Judged:
-    return judged("blind") if language == DEFAULT_LANGUAGE else published(language, "blind")
+def _there(language: str) -> bool:
+    """Whether a language has blind sentences, and not all have been looked at."""
+    return sentence_set("blind", language).with_suffix(".txt").is_file()
 
 
 def _measured(sentences: Judged, every: Mapping[str, System]) -> dict[str, Any]:

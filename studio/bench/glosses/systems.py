@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import simplemma
@@ -13,8 +13,7 @@ from spoken_to_signed.text_to_gloss.simple import text_to_gloss
 
 from glosses.accepted_translations import accepted, plain_gloss
 from glosses.measures import Glosses
-from teo_sign_languages import load_language
-from teo_sign_translator.data_files import read_rows
+from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.pipeline.translator import Translator
 
@@ -23,8 +22,6 @@ Judged = list[tuple[str, frozenset[Glosses]]]
 """Sentences with the translations that are accepted for each."""
 
 SENTENCES = Path(__file__).parents[3] / "test" / "data"
-# Of a language's text folder: sentence, accepted glosses, `blind` or `known`, and where it is published.
-_PUBLISHED = "published_sentences.tsv"
 # What sign languages leave out (lemmas): articles, copulas and auxiliaries, prepositions, "and".
 _STOP_WORDS = {
     "es": (
@@ -64,21 +61,28 @@ def lemmas_in_spanish_order(sentence: str) -> Glosses:
     return tuple(lemma.upper() for lemma in _lemmas(sentence, "es"))
 
 
-def judged(name: str) -> Judged:
-    """The sentences of a file of test/data with the translations that are accepted for each."""
-    pairs = zip(lines(f"{name}.txt"), lines(f"{name}.glosses"), strict=True)
-    return [(sentence, accepted(pattern)) for sentence, pattern in pairs]
-
-
-def published(language: str, status: str) -> Judged:
-    """Sentences of a language whose translation somebody else has published.
+def judged(name: str, language: str = DEFAULT_LANGUAGE) -> Judged:
+    """The sentences of a set of test/data with the translations that are accepted for each.
 
     Args:
-        language: Its code.
-        status: "blind", or "known" for those that were looked at while the grammar was written.
+        name: `known`, `blind` and so on.
+        language: Sets of other languages than the default one have a folder with its code.
     """
-    rows = read_rows(load_language(language).text / _PUBLISHED, columns=4)
-    return [(sentence, accepted(pattern)) for _, (sentence, pattern, kind, _) in rows if kind == status]
+    place = sentence_set(name, language)
+    sentences, patterns = (
+        place.with_suffix(suffix).read_text(encoding="utf-8").splitlines() for suffix in (".txt", ".glosses")
+    )
+    return [(sentence, accepted(pattern)) for sentence, pattern in zip(sentences, patterns, strict=True)]
+
+
+def sentence_set(name: str, language: str = DEFAULT_LANGUAGE) -> Path:
+    """Where a set's two files are, without their suffixes; they need not be there."""
+    return (SENTENCES if language == DEFAULT_LANGUAGE else SENTENCES / language) / name
+
+
+def translating(language: str) -> Mapping[str, System]:
+    """What translates into a language: its shipped model, and what it is compared with."""
+    return systems() if language == DEFAULT_LANGUAGE else english_systems(language)
 
 
 def lines(file: str) -> list[str]:

@@ -45,6 +45,7 @@ class Morphology:
 
     Attributes:
         folder: The language's text folder.
+        phrases: Forms of several words, without marks ("woke up"); `_` joins these in the lists.
     """
 
     def __init__(self, words: WordForms, folder: Path) -> None:
@@ -58,6 +59,7 @@ class Morphology:
             self._by_folded[strip_marks(entry.form.written)].append(entry)
             self._by_tag.setdefault((entry.form.lemma, entry.form.tag), entry.form.written)
         self._cached = lru_cache(_CACHED_WORDS)(self._readings)
+        self.phrases = frozenset(written for written in self._by_folded if " " in written)
 
     @classmethod
     def load(cls, folder: Path | None = None) -> Morphology:

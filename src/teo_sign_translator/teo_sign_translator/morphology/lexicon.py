@@ -178,8 +178,8 @@ def inflected_words(folder: Path, name: str, columns: int) -> Iterator[Inflected
 
 def closed_class_forms(folder: Path | None = None) -> Iterator[Form]:
     """The forms of closed_classes.tsv, of equals the likeliest first."""
-    for _, columns in _rows("closed_classes", 3, folder):
-        yield Form(*columns)
+    for _, (form, lemma, tag) in _rows("closed_classes", 3, folder):
+        yield Form(form.replace("_", " "), lemma, tag)
 
 
 def preferences(folder: Path | None = None) -> dict[str, tuple[str, ...]]:
@@ -298,10 +298,11 @@ def listed_entries(folder: Path | None, nominal: Iterable[Entry]) -> Iterator[En
     for adverb in adverbs(folder):
         tag = ADVERB_TAGS[adverb.kind]
         late = adverb.kind in ("manner", "degree", "sentence")
-        yield Entry(Form(adverb.lemma, adverb.lemma, tag), LATE_ADVERB if late else ADVERB)
+        written = adverb.lemma.replace("_", " ")
+        yield Entry(Form(written, adverb.lemma, tag), LATE_ADVERB if late else ADVERB)
     yield from nominal
     for name in names(folder):
-        yield Entry(Form(name.name, name.name, NAME_TAGS[name.kind]), NAME)
+        yield Entry(Form(name.name.replace("_", " "), name.name, NAME_TAGS[name.kind]), NAME)
     # Last: of the forms of a lemma and tag the first is the one that is written, and here is gran for grande.
     for form in closed_class_forms(folder):
         yield Entry(form, CLOSED)

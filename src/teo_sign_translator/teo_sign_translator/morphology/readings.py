@@ -131,6 +131,7 @@ _PLAIN_TAGS = (
     "PRON:3s:m",
     "PRON:3s:f",
     "POSS",
+    "AUX",
 )
 
 #: Every tag there is; the order is stable, new tags are added at the end of their part.

@@ -75,8 +75,12 @@ class SuffixedForms:
             yield from (Entry(form, NOUN) for form in self._of(row, "N"))
         for row in lexicon.inflected_words(self._folder, "adjectives", columns=5):
             yield from (Entry(form, ADJECTIVE) for form in self._of(row, "A"))
-        for row in lexicon.inflected_words(self._folder, "verbs", columns=2):
-            yield from (Entry(form, VERB) for form in self._of(row, "V"))
+        verbs = {row.lemma: row for row in lexicon.inflected_words(self._folder, "verbs", columns=2)}
+        for lemma in verbs:
+            verb, _, particle = lemma.partition("_")
+            for form in self._of(verbs.get(verb, verbs[lemma]), "V"):
+                written = f"{form.written} {particle.replace('_', ' ')}".rstrip()
+                yield Entry(Form(written, lemma, form.tag), VERB)
 
     def _of(self, row: lexicon.Inflected, word_class: str) -> Iterator[Form]:
         """The forms of a word: those that its row gives, the others by the first rule that fits."""

@@ -8,6 +8,7 @@
 4. What that leaves out is put back as the gloss of its dictionary form, beside the gloss of the nearest word;
    a question word goes last, as LSE asks; a courtesy ("por favor") is the first or the last sign.
 5. A word is signed once: a dictionary form that is carried over goes if its words are signed already.
+6. Where a language has `wordless.tsv`, no gloss is said without a word for it, but those that it lists.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from functools import cache
 from pathlib import Path
 
 from teo_common.text_folding import fold
-from teo_sign_translator.data_files import data_file, read_listed, read_sections
+from teo_sign_translator.data_files import data_file, read_listed, read_rows, read_sections
 from teo_sign_translator.morphology import TAGS, Reading
 from teo_sign_translator.pointer import Hypothesis, OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
@@ -187,19 +188,22 @@ class Completeness:
 
     Attributes:
         function_words: What may be left out.
-        gloss_words: For each gloss the lemmas that it signs though they are not its own.
+        gloss_words: For each gloss the lemmas that it signs though they are not its own: ways to say it, each
+            of one lemma or of several together.
+        wordless: Glosses that no word need say; None if any gloss may be said so.
         words: Words of the language with a rule of their own.
         tags: Words that ask for agreement behind a sentence ("…, ¿no?"), and deny nothing there.
     """
 
     function_words: FunctionWords
-    gloss_words: Mapping[str, frozenset[str]]
+    gloss_words: Mapping[str, frozenset[frozenset[str]]]
+    wordless: frozenset[str] | None
     words: CompletenessWords
     tags: frozenset[str]
 
     @classmethod
     def load(cls, folder: Path | None = None) -> Completeness:
-        """With a language's `function_words.tsv`, `gloss_words.tsv`, `pipeline.yaml` and `reading.yaml`.
+        """With a language's lists of words, `pipeline.yaml` and `reading.yaml`.
 
         Args:
             folder: The language's text folder; by default that of the default language.
@@ -211,9 +215,23 @@ class Completeness:
         return cls(
             FunctionWords.load(folder / "function_words.tsv"),
             read_gloss_words(folder / "gloss_words.tsv"),
+            _read_wordless(folder / "wordless.tsv"),
             PipelineWords.load(folder).completeness,
             TextRules.load(folder).sentences.tags,
         )
+
+    def without_words(self, words: Sequence[SourceWord], glosses: Iterable[str]) -> list[str]:
+        """Those of a model's glosses that no word of a sentence says, and that must not be said without."""
+        if self.wordless is None:
+            return []
+        by_gloss, by_lemma = _places(words)
+        return [
+            gloss
+            for gloss in glosses
+            if gloss not in by_gloss
+            and gloss not in self.wordless
+            and not any(by_lemma.keys() >= way for way in self.gloss_words.get(gloss, ()))
+        ]
 
     def complete(self, words: Sequence[SourceWord], hypotheses: Iterable[Hypothesis]) -> CompleteTranslation:
         """The translation that leaves out the fewest words, with these put back.
@@ -272,7 +290,7 @@ class Completeness:
         taken: set[int] = set()
         result: list[list[int]] = []
         for gloss in glosses:
-            lemmas = sorted(self.gloss_words.get(gloss.gloss, frozenset()))
+            lemmas = sorted(frozenset[str]().union(*self.gloss_words.get(gloss.gloss, ())))
             choices = [by_gloss.get(gloss.gloss, []), *(by_lemma.get(lemma, []) for lemma in lemmas)]
             result.append([_likeliest(places, gloss, taken) for places in choices if places])
             taken.update(result[-1])
@@ -320,13 +338,21 @@ class Completeness:
         return index
 
 
-def read_gloss_words(path: Path) -> dict[str, frozenset[str]]:
+def read_gloss_words(path: Path) -> dict[str, frozenset[frozenset[str]]]:
     """For each gloss of a language's `gloss_words.tsv` the lemmas that it signs though they are not its own.
+
+    Returns:
+        By gloss the ways to say it; `not+know` is one of two lemmas.
 
     Raises:
         TranslationError: "invalid_data", with file and line.
     """
-    return read_listed(path, lambda gloss: gloss == gloss.upper(), "a gloss in capitals")
+    listed = read_listed(path, lambda gloss: gloss == gloss.upper(), "a gloss in capitals")
+    return {gloss: frozenset(frozenset(way.split("+")) for way in ways) for gloss, ways in listed.items()}
+
+
+def _read_wordless(path: Path) -> frozenset[str] | None:
+    return frozenset(row[0] for _, row in read_rows(path, columns=2)) if path.is_file() else None
 
 
 def _each_word_once(words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> tuple[OutputGloss, ...]:

@@ -116,7 +116,8 @@ class PointerBackEnd:
         """See `BackEnd`; the model is asked once, for all sentences of all texts together."""
         units = [self._units(clauses) for clauses in texts]
         asked = [part for text in units for unit in text for part in unit.parts]
-        said = iter(self._model.translate_all(asked, beam=self._beam_width))
+        unsaid = self._completeness.without_words
+        said = iter(self._model.translate_all(asked, beam=self._beam_width, unsaid=unsaid))
         return [self._of_text(text, said) for text in units]
 
     def _of_text(

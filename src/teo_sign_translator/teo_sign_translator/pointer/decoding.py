@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from functools import cache
@@ -35,6 +35,10 @@ _WORDS_OF_A_CLAUSE = 4
 #: Words that a gloss stands for have at least this part of the highest attention: the alignment teaches equal
 #: attention to all of them.
 _SHARED_LOOK = 0.5
+
+
+#: Which of a closed list's glosses a sentence's translation must not say.
+Unsaid = Callable[[Sequence[SourceWord], Iterable[str]], Collection[str]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,9 +114,19 @@ class SentenceModel:
         return self.translate_all([words], beam=beam)[0]
 
     def translate_all(
-        self, sentences: Sequence[Sequence[SourceWord]], *, beam: int = 1
+        self,
+        sentences: Sequence[Sequence[SourceWord]],
+        *,
+        beam: int = 1,
+        unsaid: Unsaid | None = None,
     ) -> tuple[tuple[Hypothesis, ...], ...]:
-        """Translate many sentences, faster than one by one; the results are in their order."""
+        """Translate many sentences, faster than one by one; the results are in their order.
+
+        Args:
+            sentences: Their words.
+            beam: See `translate`.
+            unsaid: Tells what must not be said.
+        """
         result: list[tuple[Hypothesis, ...]] = [(Hypothesis((), 0.0),)] * len(sentences)
         by_length: dict[int, list[int]] = {}
         for index, words in enumerate(sentences):
@@ -129,14 +143,17 @@ class SentenceModel:
                 if self.arrays.config.layout == "equal_length":
                     translated = _at_positions(self.arrays, chosen)
                 else:
-                    translated = search(self.arrays, chosen, max(1, beam))
+                    translated = search(self.arrays, chosen, max(1, beam), unsaid)
                 for index, hypotheses in zip(some, translated, strict=True):
                     result[index] = hypotheses
         return tuple(result)
 
 
 def search(
-    model: ArrayModel | Ensemble, sentences: Sequence[Sequence[SourceWord]], beam: int
+    model: ArrayModel | Ensemble,
+    sentences: Sequence[Sequence[SourceWord]],
+    beam: int,
+    unsaid: Unsaid | None = None,
 ) -> list[tuple[Hypothesis, ...]]:
     """Beam search over sentences that have the same number of words.
 
@@ -153,7 +170,12 @@ def search(
     said = np.full((count, beam), START_INDEX)
     choices: list[_Choice] = []
     row = np.arange(count)[:, None]
-    left = np.repeat(_allowed(memory, size)[:, None], beam, axis=1)
+    allowed = _allowed(memory, size)
+    if unsaid:
+        closed = model.vocabulary.glosses[START_INDEX + 1 :]
+        for index, words in enumerate(sentences):
+            allowed[index, [model.vocabulary.gloss_index[gloss] for gloss in unsaid(words, closed)]] = 0
+    left = np.repeat(allowed[:, None], beam, axis=1)
     # Twice the words: pronoun, tense and question add glosses. One more step tells what would go on.
     for _ in range(2 * (width - 1) + 1):
         step = model.step(memory, said.ravel(), states)

@@ -15,6 +15,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice, pairwise
 
+from teo_common.text_folding import strip_marks
 from teo_sign_translator.morphology import MAX_READINGS, Morphology, Reading
 from teo_sign_translator.text.cleaning import clean, is_drawn_out, shortened
 from teo_sign_translator.text.numerals import roman_value
@@ -163,7 +164,102 @@ def words_of_clauses(clauses: Sequence[Clause], morphology: Morphology) -> tuple
         following = words[place + 1].readings if place + 1 < len(words) else ()
         readings = _opening_name(_all_readings(words[place], morphology), following, special)
         words[place] = replace(words[place], readings=readings)
-    return tuple(_told_by_neighbours(_with_whole_names(words), morphology))
+    words = _with_phrases(words, morphology) if morphology.phrases else words
+    return tuple(_told_by_neighbours(_in_their_clause(_with_whole_names(words), morphology), morphology))
+
+
+#: What a relative clause stands behind, and what may stand between an auxiliary and its participle.
+_BEFORE_RELATIVES = ("N:", "NAME", "PRON:ind", "NUM")
+_INSIDE_PERFECT = ("ADV", "PRON", "NAME", "N:", "A", "DET:poss", "DET:def", "DET:dem", "POSS")
+
+
+def _in_their_clause(words: Sequence[SourceWord], morphology: Morphology) -> list[SourceWord]:
+    """The words, without readings that their clause rules out.
+
+    A question word that may be a relative is one behind a noun alone, and an auxiliary has a participle.
+    """
+    result = list(words)
+    for place, word in enumerate(words):
+        tags = {reading.tag for reading in word.readings if reading.exact}
+        out = set()
+        if "WH" in tags and not _may_relate(words, place):
+            out.add("PRON:rel")
+        if "AUX" in tags and not _before_participle(words[place + 1 :], morphology):
+            out.add("AUX")
+        if out & tags:
+            kept = tuple(each for each in word.readings if each.tag not in out or not each.exact)
+            result[place] = replace(word, readings=kept)
+    return result
+
+
+def _may_relate(words: Sequence[SourceWord], place: int) -> bool:
+    """Whether a noun is before a word, or before the comma before it, if the clause has its other comma."""
+    before = place - 1
+    if before > 0 and words[before].form == "," and any(word.form == "," for word in words[place:]):
+        before -= 1
+    return before >= 0 and words[before].readings[0].tag.startswith(_BEFORE_RELATIVES)
+
+
+def _before_participle(words: Sequence[SourceWord], morphology: Morphology) -> bool:
+    """Whether a participle comes before anything that cannot stand between it and its auxiliary."""
+    for word in words:
+        verbs = (reading.lemma for reading in word.readings if reading.tag.startswith("V:") and reading.exact)
+        if any(word.form == morphology.inflect(lemma, "V:part") for lemma in verbs):
+            return True
+        if not word.readings[0].tag.startswith(_INSIDE_PERFECT):
+            return False
+    return False
+
+
+#: Words of a phrase, and words between a verb and what belongs to it ("turn the big light off").
+_MOST_PARTS, _MOST_BETWEEN = 4, 3
+_OBJECTS = ("PRON:obj", "PRON:2s", "PRON:3s", "PRON:ind", "DET", "A", "N:", "NAME", "POSS")
+_NOMINAL = ("DET", "N:", "A", "NAME", "NUM", "PRON:poss")
+
+
+def _with_phrases(words: Sequence[SourceWord], morphology: Morphology) -> list[SourceWord]:
+    """The words, those that the lexicon lists together as one: "woke up", also "woke my son up"."""
+    result: list[SourceWord] = []
+    place = 0
+    while place < len(words):
+        sizes = range(min(_MOST_PARTS, len(words) - place), 1, -1)
+        size = next((size for size in sizes if _phrase(words[place : place + size], morphology)), 1)
+        result.append(_as_one(words[place : place + size], morphology) if size > 1 else words[place])
+        place += size
+    for place, word in enumerate(result):
+        for last in range(place + 2, min(place + 2 + _MOST_BETWEEN, len(result))):
+            if _divided(result[place : last + 1], result[last + 1 : last + 2], morphology):
+                result[place] = _as_one([word, result.pop(last)], morphology)
+                break
+    return result
+
+
+def _phrase(words: Sequence[SourceWord], morphology: Morphology) -> bool:
+    return strip_marks(" ".join(map(_said_as, words))) in morphology.phrases
+
+
+def _said_as(word: SourceWord) -> str:
+    return word.text.lower() if word.readings[0].tag == "NUM" else word.form
+
+
+def _as_one(words: Sequence[SourceWord], morphology: Morphology) -> SourceWord:
+    form = " ".join(map(_said_as, words))
+    readings = morphology.readings(form.capitalize() if words[0].capital else form)
+    return SourceWord(" ".join(word.text for word in words), form, words[0].capital, readings)
+
+
+def _divided(words: Sequence[SourceWord], following: Sequence[SourceWord], morphology: Morphology) -> bool:
+    """Whether the first and the last of some words are a verb with its object between them.
+
+    What governs a noun behind it belongs to that one: "put the book on the table".
+    """
+    verb, *between, particle = words
+    return (
+        _phrase((verb, particle), morphology)
+        and any(reading.tag.startswith("V:") for reading in _as_one((verb, particle), morphology).readings)
+        and all(any(r.tag.startswith(_OBJECTS) for r in word.readings) for word in between)
+        and not any(word.readings[0].tag.startswith(_NOMINAL) for word in following)
+    )
 
 
 def _told_by_neighbours(words: list[SourceWord], morphology: Morphology) -> list[SourceWord]:
@@ -232,15 +328,18 @@ def _with_whole_names(words: Sequence[SourceWord]) -> list[SourceWord]:
         while last < len(result) and result[last].readings[0].tag.startswith(_INSIDE_NAMES):
             last += 1
         surname = last < len(result) and place + 1 < last <= place + 1 + _MOST_INSIDE_NAMES
-        if surname and result[last].capital and not _is_place(result[last]):
+        if surname and result[last].capital and _may_be_surname(result[last]):
             for inside in range(place + 1, last + 1):
                 named = Reading(result[inside].text, "NAME", exact=False)
                 result[inside] = replace(result[inside], readings=(named,))
     return result
 
 
-def _is_place(word: SourceWord) -> bool:
-    return any(reading.tag == "NAME:place" for reading in word.readings)
+def _may_be_surname(word: SourceWord) -> bool:
+    """Whether a capital makes a word a name: not a place's, and not that of a word that always has one."""
+    others = [reading for reading in word.readings if not is_persons_name(reading)]
+    own_capital = any(reading.lemma[:1].isupper() for reading in others)
+    return not (own_capital or word.readings[0].tag.startswith("PRON"))
 
 
 def _all_readings(word: SourceWord, morphology: Morphology) -> tuple[Reading, ...]:

@@ -149,7 +149,7 @@ class Sides:
         return phrase.tokens
 
     def _literal(self, item: TextItem) -> SaidWord:
-        token = SaidWord(item.word)
+        token = SaidWord(item.word.replace("_", " "))
         if item.agree:
             features = self.slots[item.agree].features
             column = _COLUMNS.index(features.get("gender", "m")[0] + features.get("number", "s"))

@@ -281,7 +281,7 @@ def _shape(where: str, name: str, body: Any) -> Shape:
         match = _PART.fullmatch(written)
         if match and (match["lemma"] or match["main"]):
             parts.append(ShapePart(match["lemma"], match["tag"], "", bool(match["enclitic"])))
-        elif written.isalpha() or written == "^":
+        elif written.replace("_", "").isalpha() or written == "^":
             parts.append(ShapePart("", "", written, False))
         else:
             _fail(where, f"*/tag, auxiliary/tag, a word or ^, got '{written}'")

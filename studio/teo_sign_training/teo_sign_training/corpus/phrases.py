@@ -122,13 +122,14 @@ def word_phrase(words: WordLists, category: str, word: ListedWord, arguments: Ma
     Raises:
         TranslationError: "no_form" if the morphology does not know the word.
     """
-    form = word.lemma
+    form = word.lemma.replace("_", " ")
     if category == "noun":
         form = words.inflect(word.lemma, word.features["tag"])
     elif category == "adj":
         number = arguments.get("number", "s")
         tags = {"m+f": f"A:{arguments.get('gender', 'm')}{number}", "mf": f"A:c{number}", "-": "A"}
-        form = words.inflect(word.lemma, tags.get(word.features["gender"], "A:cn"))
+        compared = f"A:{arguments['degree']}" if "degree" in arguments else ""
+        form = words.inflect(word.lemma, compared or tags.get(word.features["gender"], "A:cn"))
     token = SaidWord(form)
     gloss = gloss_name(word.lemma)
     return Phrase({**word.features, "lemma": word.lemma}, [token], [Sign(gloss, [token])], token)
@@ -181,7 +182,7 @@ def say_verb(
             tokens += carriers
             continue
         if part.literal:
-            token = SaidWord(part.literal)
+            token = SaidWord(part.literal.replace("_", " "))
         else:
             tag = f"V:{part.tag}"
             if part.tag.startswith(_FINITE):

@@ -161,7 +161,7 @@ class WordLists:
     def _nouns(self, arguments: Mapping[str, str]) -> Iterable[tuple[ListedWord, float]]:
         number = arguments.get("num", "s")
         for word, weight in self._chosen(self.nouns, arguments.get("class", ""), "noun"):
-            if not word.lemma.isalpha():
+            if not word.lemma.replace("_", "").isalpha():
                 continue  # mp3 is two words to a reader of sentences
             gender = word.features["gender"]
             only_plural = gender in ("mp", "fp")
