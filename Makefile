@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-# make setup | wheelhouse | run | demo TEXT="..." | test | slow | commands | lint | bench | docs; run and demo take ROBOT=gr1t2, LANGUAGE=ase, VIEW=1; bench takes BENCH=NAME
+# make setup | wheelhouse | run | demo TEXT="..." | test | slow | commands | lint | bench | docs | release; run and demo take ROBOT=gr1t2, LANGUAGE=ase, VIEW=1; bench takes BENCH=NAME
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
 TEXT ?= Hola, me llamo Ana. ¿Qué tal?
@@ -14,7 +14,7 @@ LANGUAGE ?= ssp
 SETUP := $(if $(VIEW),setup-view,setup-run)
 ENV := . ./env.sh &&
 
-.PHONY: help setup setup-run setup-view wheelhouse robots run demo test slow commands lint bench docs
+.PHONY: help setup setup-run setup-view wheelhouse robots run demo test slow commands lint bench docs release
 
 help: ## what can be made
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
@@ -56,6 +56,9 @@ lint: setup ## style, types
 
 docs: setup ## the pages of docs/ and of the API, in out/docs/
 	@$(ENV) NO_MKDOCS_2_WARNING=1 mkdocs build --strict --quiet
+
+release: ## models and tables as versioned files with their hashes, in OUT/release
+	@scripts/release.sh
 
 bench: setup ## the figures of docs/figures.md; BENCH="NAME --option 1": those of one bench
 	@$(ENV) PYTHONPATH="$$PWD/scripts:$$PWD/test/support/nodes:$$PWD/test/support/made:$$PYTHONPATH" python studio/bench/run.py $(BENCH)

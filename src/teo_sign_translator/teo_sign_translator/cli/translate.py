@@ -19,6 +19,7 @@ from teo_common.errors import CodedError
 from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.model_files import available_models
+from teo_sign_translator.output.explanation import explained
 from teo_sign_translator.output.sign_coverage import LEAST_STANDING, STANDINGS, read_signs
 from teo_sign_translator.output.substitutes import Substitutes
 from teo_sign_translator.output.translation import Translation
@@ -50,6 +51,9 @@ def translate(
     ] = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Write everything, one JSON object a text.")
+    ] = False,
+    explain: Annotated[
+        bool, typer.Option("--explain", help="Write why each token is there, and where each word went.")
     ] = False,
     language: Annotated[str, typer.Option(help="Sign language, by its ISO 639-3 code.")] = DEFAULT_LANGUAGE,
     model: Annotated[
@@ -91,6 +95,8 @@ def translate(
     """
     if not list_models and (text is not None) + stdin + (file is not None) != 1:
         raise typer.BadParameter("expected either a text, --stdin or --file")
+    if explain and (as_json or text is None):
+        raise typer.BadParameter("expected --explain with one text and without --json, which has it all")
     try:
         if list_models:
             print(*available_models(load_language(language).models), sep="\n")
@@ -101,6 +107,7 @@ def translate(
             ),
             read_signs(signs, least_standing) if signs else None,
             as_json=as_json,
+            explain=explain,
         )
     except (TranslationError, LanguageError) as error:
         _complain("", error)
@@ -130,12 +137,14 @@ class _Writer:
         translator: Translates.
         signs: Glosses that have signs; None if that is not known.
         as_json: Whether everything is written.
+        explain: Whether a translation's tokens are explained instead.
         failed: Whether a text could not be translated.
     """
 
     translator: Translator
     signs: Set[str] | None
     as_json: bool
+    explain: bool
     failed: bool = False
 
     def write_text(self, text: str) -> None:
@@ -157,6 +166,9 @@ class _Writer:
             self._print(line, answer)
 
     def _print(self, text: str, answer: Translation | TranslationError | None) -> None:
+        if self.explain and isinstance(answer, Translation):
+            print(*explained(answer), sep="\n")
+            return
         if not self.as_json:
             print(answer if isinstance(answer, Translation) else "", flush=True)
             return

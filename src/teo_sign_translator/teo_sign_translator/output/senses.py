@@ -25,8 +25,8 @@ class Sense(NamedTuple):
 
     glosses: tuple[str, ...]
     """Of the translation, beside each other."""
-    meant: str
-    """The gloss that says it; empty for none."""
+    meant: tuple[str, ...]
+    """What says it; empty for nothing."""
     context: re.Pattern[str]
     """Found in the sentences where that is meant: folded, numbers in digits."""
 
@@ -40,15 +40,15 @@ def read_senses(path: Path) -> tuple[Sense, ...]:
     found: list[Sense] = []
     for number, (listed, meant, context) in read_rows(path, columns=3) if path.is_file() else ():
         glosses = tuple(listed.split())
-        named = glosses if meant == "-" else (*glosses, meant)
+        instead = () if meant == "-" else tuple(meant.split())
         try:
             pattern = re.compile(context)
         except re.error:
             pattern = None
-        if pattern is None or not all(map(SIGN_NAME.fullmatch, named)):
-            expected = 'glosses, the gloss that is meant or "-", and a regular expression'
+        if pattern is None or not all(map(SIGN_NAME.fullmatch, (*glosses, *instead))):
+            expected = 'glosses, those that are meant or "-", and a regular expression'
             raise invalid_line(path, number, expected, f"'{listed}', '{meant}', '{context}'")
-        found.append(Sense(glosses, "" if meant == "-" else meant, pattern))
+        found.append(Sense(glosses, instead, pattern))
     return tuple(found)
 
 
@@ -60,6 +60,8 @@ def with_senses(
     spelling: Spelling,
 ) -> list[OutputWord]:
     """Output words, each with the gloss of the sense that its sentence has; spelled if that has no sign.
+
+    Several glosses for which one sign stands stay as they are where the table lacks it.
 
     Args:
         output_words: Of one sentence.
@@ -75,14 +77,16 @@ def with_senses(
     result: list[OutputWord] = []
     rest = list(output_words)
     while rest:
-        sense = next((sense for sense in fitting if _begin_with(rest, sense.glosses)), None)
+        beginning = (sense for sense in fitting if _begin_with(rest, sense.glosses))
+        sense = next((each for each in beginning if len(each.glosses) == 1 or signs >= {*each.meant}), None)
         words = [rest.pop(0) for _ in (sense.glosses if sense else rest[:1])]
         if sense is None:
             result += words
-        elif sense.meant in signs:
+        elif sense.meant and signs >= {*sense.meant}:
             typed = tuple(text for word in words for text in word.words)
             sure = min(word.confidence for word in words)
-            result.append(replace(words[0], signs=(sense.meant,), words=typed, confidence=sure))
+            meant = replace(words[0], words=typed, confidence=sure)
+            result += [replace(meant, signs=(gloss,)) for gloss in sense.meant]
         else:
             for word in words:
                 letters = spelled(word.signs[0], word.words, word.confidence, spelling)

@@ -14,7 +14,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
@@ -127,11 +127,11 @@ class CompleteTranslation:
     put_back: tuple[bool, ...]
     given: bool = False
 
-    def without(self, place: int) -> CompleteTranslation:
-        """The same without one gloss, whose words others say."""
-        glosses = self.glosses[:place] + self.glosses[place + 1 :]
-        put_back = self.put_back[:place] + self.put_back[place + 1 :]
-        return replace(self, glosses=glosses, put_back=put_back)
+    def without(self, places: Collection[int]) -> CompleteTranslation:
+        """The same without some glosses, whose words others say."""
+        kept = [place for place in range(len(self.glosses)) if place not in places]
+        glosses = tuple(self.glosses[place] for place in kept)
+        return replace(self, glosses=glosses, put_back=tuple(self.put_back[place] for place in kept))
 
 
 class FunctionWords:

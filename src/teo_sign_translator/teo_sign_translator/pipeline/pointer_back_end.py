@@ -148,8 +148,10 @@ class PointerBackEnd:
             if output_words:
                 output_words.append(PAUSE)
             said = _as_given(hypotheses, unit.given) or self._completeness.complete(words, hypotheses)
+            if not unit.given:
+                said = said.without(self._topics.repeated(words, said.glosses))
             unsaid = topic.unsaid(words, said.glosses)
-            if unsaid is not None and not unit.given:
+            if not unit.given:
                 said = said.without(unsaid)
             output_words += _gloss_output_words(words, said, self._agreement, self._rules.glosses)
             if not unit.given and _asks(words, said.glosses):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Who a text goes on about, so that he is not pointed at in each of its sentences.
+"""Who a text goes on about, so that he is not pointed at in each of its sentences and clauses.
 
 Spanish says the subject in the verb's ending each time; signers leave out who is known from the sentence
 before (in the LSE-RADIS narratives 55 of 330 sentences are a verb alone).
@@ -20,6 +20,8 @@ from teo_sign_translator.text.source_words import SourceWord
 #: Classes of nouns that may do what a verb says, so that they could be taken for its subject.
 _DOERS = frozenset({"person", "family", "profession", "animal", "group"})
 _PERSONS = ("PRON", "NAME")
+#: What stands between a verb and what opens its clause ("que no me gustó").
+_BEFORE_VERBS = ("PRON:obj", "PRON:refl", "DET:def", "ADV")
 
 
 class Topics:
@@ -31,7 +33,9 @@ class Topics:
         Raises:
             TranslationError: "invalid_data" naming file and field.
         """
-        self.subjects = frozenset(map(gloss_name, PipelineWords.load(folder).persons.subjects))
+        persons = PipelineWords.load(folder).persons.subjects
+        #: Pronouns' glosses with the person that a verb's ending says for each.
+        self.subjects = {gloss_name(word): person for word, person in persons.items()}
         self._doers = frozenset(noun.lemma for noun in nouns(folder) if not _DOERS.isdisjoint(noun.classes))
 
     def may_do(self, word: SourceWord) -> bool:
@@ -42,6 +46,52 @@ class Topics:
             for reading in word.readings
         )
 
+    def repeated(self, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> list[int]:
+        """The places of subjects that a clause before in the same sentence has said already.
+
+        "Llegué tarde porque perdí el tren" is YO LLEGAR TARDE PORQUE TREN PERDER. Only a verb's ending says
+        such a subject, and nobody else is named, pointed at or acted upon up to there. A clause that describes
+        a thing ("el abrigo que compraste") keeps it.
+
+        Args:
+            words: Of the sentence.
+            glosses: Its translation.
+        """
+        result: list[int] = []
+        before = -1
+        for place, gloss in enumerate(glosses):
+            if gloss.gloss not in self.subjects or not gloss.sources:
+                continue
+            ending = self._by_ending(words, gloss)
+            if before >= 0 and glosses[before].gloss == gloss.gloss and ending:
+                verb = max(at for at, each in enumerate(glosses) if {*gloss.sources} & {*each.sources})
+                others = (*glosses[before + 1 : place], *glosses[place + 1 : verb + 1])
+                named = any(self.may_do(words[source]) for each in others for source in each.sources)
+                if not named and not _in_relative_clause(words, min(gloss.sources)):
+                    result.append(place)
+            if ending or self._typed(words, gloss):
+                before = place
+        return result
+
+    def _by_ending(self, words: Sequence[SourceWord], gloss: OutputGloss) -> bool:
+        """Whether a verb's ending alone says a pronoun."""
+        ending = f":{self.subjects[gloss.gloss]}"
+        return all(
+            any(reading.tag.startswith("V:") and ending in reading.tag for reading in words[source].readings)
+            for source in gloss.sources
+        )
+
+    def _typed(self, words: Sequence[SourceWord], gloss: OutputGloss) -> bool:
+        """Whether a word says a pronoun, as a subject."""
+        lemmas = {reading.lemma for source in gloss.sources for reading in words[source].readings}
+        return gloss.gloss in map(gloss_name, lemmas)
+
+
+def _in_relative_clause(words: Sequence[SourceWord], verb: int) -> bool:
+    """Whether what opens a verb's clause may be a relative; "creo que" is taken for one too."""
+    opening = [word for word in words[:verb] if not word.readings[0].tag.startswith(_BEFORE_VERBS)]
+    return bool(opening) and any(reading.tag == "PRON:rel" for reading in opening[-1].readings)
+
 
 class Topic:
     """Whom the sentences of one text are about, as far as they have been read."""
@@ -51,8 +101,8 @@ class Topic:
         self._topics = topics
         self._subject = ""
 
-    def unsaid(self, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> int | None:
-        """The place of the gloss that the sentence before has said already, if one need not be said again.
+    def unsaid(self, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> list[int]:
+        """The place of the gloss that the sentence before has said already, none if it must be said again.
 
         It is the only person of both sentences, no one asks, and only the verb's ending says it here: who is
         typed ("yo pago") is meant to be seen.
@@ -65,9 +115,9 @@ class Topic:
         said = [place for place, gloss in enumerate(glosses) if gloss.gloss in self._topics.subjects]
         typed = {place for place, word in enumerate(words) if self._topics.may_do(word)}
         if len(said) != 1 or any(word.form == "?" for word in words):
-            return None
+            return []
         subject = glosses[said[0]]
         if not typed.issubset(subject.sources):
-            return None
+            return []
         self._subject = subject.gloss
-        return said[0] if not typed and subject.gloss == before and len(glosses) > 1 else None
+        return said if not typed and subject.gloss == before and len(glosses) > 1 else []

@@ -279,7 +279,10 @@ def _told_by_neighbours(words: list[SourceWord], morphology: Morphology) -> list
         if before in told.before_nouns and not nominal:
             words[place] = replace(word, readings=(Reading(word.form, "X", exact=False),))
         elif behind_copula or before in told.before_nouns or (before in told.before_masculine and masculine):
-            words[place] = replace(word, readings=_without_verbs(word.readings, prepositions=behind_copula))
+            readings = _without_verbs(word.readings, prepositions=behind_copula)
+            words[place] = replace(
+                word, readings=readings if behind_copula else _without_participles(readings)
+            )
         before = word.form
         behind_copula = word.readings[0].lemma in told.copulas or (
             behind_copula and word.form in told.degrees
@@ -305,6 +308,12 @@ def _is_participle(word: SourceWord, *, behind: SourceWord | None) -> bool:
 
 def _is_nominal(reading: Reading) -> bool:
     return not reading.tag.startswith((*_FINITE, "PREP"))
+
+
+def _without_participles(readings: tuple[Reading, ...]) -> tuple[Reading, ...]:
+    """What a word behind an article may be: no participle, if it may be a noun ("un puesto")."""
+    nouns = any(reading.tag.startswith("N:") for reading in readings)
+    return tuple(each for each in readings if not nouns or not each.tag.startswith("V:part"))
 
 
 def _without_verbs(readings: tuple[Reading, ...], *, prepositions: bool) -> tuple[Reading, ...]:

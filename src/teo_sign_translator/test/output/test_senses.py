@@ -36,7 +36,19 @@ CASES = [
     ("La estación de tren está lejos.", "ESTACIÓN", "ESTACIÓN_DEL_AÑO"),
     ("Hace mal tiempo.", "TIEMPO_ATMOSFÉRICO", "TIEMPO"),
     ("Llego tarde.", "", "TARDE"),
-    ("Por la tarde trabajo.", "TARDE", ""),
+    ("Esta tarde trabajo.", "TARDE", "POR_LA_TARDE"),
+    ("Por la tarde trabajo.", "POR_LA_TARDE", "TARDE"),
+    ("Mañana por la mañana trabajo.", "MAÑANA POR_LA_MAÑANA", ""),
+    ("Mañana trabajo.", "MAÑANA", "POR_LA_MAÑANA"),
+    ("No me gusta la leche.", "NO_GUSTAR", "GUSTAR NO"),
+    ("Me gusta la leche.", "GUSTAR", "NO_GUSTAR"),
+    ("No tengo moto.", "NO_TENER", "NO"),
+    ("No tengo sed.", "NO", "NO_TENER"),
+    ("Me lavo los dientes.", "LAVAR_LOS_DIENTES", "DIENTE LAVAR"),
+    ("Lavo la camisa.", "LAVAR", "LAVAR_LOS_DIENTES"),
+    ("La parada de autobús está cerca.", "PARADA_DE_AUTOBÚS", "PARADA AUTOBÚS"),
+    ("¿Qué hora es?", "QUÉ_HORA_ES", "HORA CUÁL"),
+    ("Buenos días.", "BUENOS_DÍAS", "BIEN DÍA"),
     ("Tengo la mano derecha rota.", "DERECHA", "DERECHO"),
     ("El derecho es difícil.", "DERECHO", "DERECHA"),
     ("La comida está lista.", "", "LISTO"),
@@ -58,6 +70,11 @@ def test_the_sense_of_the_sentence_is_signed_and_no_other(text: str, signed: str
         if token.kind is Kind.LEXICAL
     }
     assert glosses >= {*signed.split()} and glosses.isdisjoint(not_signed.split())
+
+
+def test_several_glosses_stay_where_the_table_has_no_one_sign_for_them() -> None:
+    (sentence,) = translator().translate("No me gusta la leche.", SIGNS - {"NO_GUSTAR"}).sentences
+    assert [token.gloss for token in sentence.tokens][-2:] == ["GUSTAR", "NO"]
 
 
 def test_a_sense_that_the_table_lacks_is_spelled_and_says_for_which_gloss() -> None:

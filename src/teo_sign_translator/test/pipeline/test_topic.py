@@ -33,6 +33,19 @@ def test_who_is_known_is_not_pointed_at_again(text: str, expected: list[str]) ->
     assert glosses(text) == expected
 
 
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("Tengo hambre y quiero pan.", "YO HAMBRE PAN QUERER"),
+        ("No salgo porque tengo frío.", "YO SALIR NO PORQUE FRÍO"),
+        # Another one acts or is acted upon between the two: who does the second thing must be seen.
+        ("Tengo hambre y mi madre cocina y quiero pan.", "YO HAMBRE MADRE MI COCINAR YO PAN QUERER"),
+    ],
+)
+def test_a_sentence_points_at_its_subject_once(text: str, expected: str) -> None:
+    assert glosses(text) == [expected]
+
+
 def test_nothing_but_a_pronoun_goes() -> None:
     alone = [
         "Ayer compré pan.", "Mi madre está enferma.", "No tengo dinero.", "Te espero en la calle.",
