@@ -50,8 +50,8 @@ class Topics:
         """The places of subjects that a clause before in the same sentence has said already.
 
         "Llegué tarde porque perdí el tren" is YO LLEGAR TARDE PORQUE TREN PERDER. Only a verb's ending says
-        such a subject, and nobody else is named, pointed at or acted upon up to there. A clause that describes
-        a thing ("el abrigo que compraste") keeps it.
+        such a subject, and nobody else is named, pointed at or acted upon up to there. A clause that
+        describes a thing ("el abrigo que compraste") keeps it.
 
         Args:
             words: Of the sentence.

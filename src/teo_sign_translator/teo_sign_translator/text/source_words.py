@@ -310,7 +310,7 @@ def _is_nominal(reading: Reading) -> bool:
     return not reading.tag.startswith((*_FINITE, "PREP"))
 
 
-def _without_participles(readings: tuple[Reading, ...]) -> tuple[Reading, ...]:
+def _no_participles(readings: tuple[Reading, ...]) -> tuple[Reading, ...]:
     """What a word behind an article may be: no participle, if it may be a noun ("un puesto")."""
     nouns = any(reading.tag.startswith("N:") for reading in readings)
     return tuple(each for each in readings if not nouns or not each.tag.startswith("V:part"))
