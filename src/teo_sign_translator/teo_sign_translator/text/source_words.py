@@ -280,9 +280,7 @@ def _told_by_neighbours(words: list[SourceWord], morphology: Morphology) -> list
             words[place] = replace(word, readings=(Reading(word.form, "X", exact=False),))
         elif behind_copula or before in told.before_nouns or (before in told.before_masculine and masculine):
             readings = _without_verbs(word.readings, prepositions=behind_copula)
-            words[place] = replace(
-                word, readings=readings if behind_copula else _without_participles(readings)
-            )
+            words[place] = replace(word, readings=readings if behind_copula else _no_participles(readings))
         before = word.form
         behind_copula = word.readings[0].lemma in told.copulas or (
             behind_copula and word.form in told.degrees
