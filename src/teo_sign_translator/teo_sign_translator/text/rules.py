@@ -159,6 +159,8 @@ class SpecialWords:
         subject_tags: Ends of the tags of verbs that a name without an article may be the subject of.
         sounds: By a pattern of what is typed by its sound, the spellings that sound so (`k`: `c qu`), "" for
             a letter that is not written.
+        superlative: What an adjective is, without marks, if its form says a degree; empty for none.
+        degree: The word that says it: "carísimo" is "muy caro".
     """
 
     laughter: re.Pattern[str]
@@ -169,6 +171,8 @@ class SpecialWords:
     introducing: frozenset[str]
     subject_tags: tuple[str, ...]
     sounds: dict[str, str]
+    superlative: re.Pattern[str]
+    degree: str
 
     @cached_property
     def spellings(self) -> tuple[tuple[re.Pattern[str], tuple[str, ...]], ...]:

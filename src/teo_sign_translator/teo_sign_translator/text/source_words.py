@@ -164,8 +164,24 @@ def words_of_clauses(clauses: Sequence[Clause], morphology: Morphology) -> tuple
         following = words[place + 1].readings if place + 1 < len(words) else ()
         readings = _opening_name(_all_readings(words[place], morphology), following, special)
         words[place] = replace(words[place], readings=readings)
+    words = _with_degrees(words, special, morphology)
     words = _with_phrases(words, morphology) if morphology.phrases else words
     return tuple(_told_by_neighbours(_in_their_clause(_with_whole_names(words), morphology), morphology))
+
+
+def _with_degrees(
+    words: Sequence[SourceWord], special: SpecialWords, morphology: Morphology
+) -> list[SourceWord]:
+    """The words, a superlative as two of them: "carísimo" is very dear."""
+    result: list[SourceWord] = []
+    for word in words:
+        likeliest = word.readings[0]
+        if likeliest.tag.startswith("A:") and special.superlative.fullmatch(strip_marks(word.form)):
+            result.append(replace(word, form=special.degree, readings=morphology.readings(special.degree)))
+            base = morphology.inflect(likeliest.lemma, likeliest.tag)
+            word = replace(word, form=base, capital=False, readings=morphology.readings(base))
+        result.append(word)
+    return result
 
 
 #: What a relative clause stands behind, and what may stand between an auxiliary and its participle.

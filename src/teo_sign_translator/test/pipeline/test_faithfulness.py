@@ -79,7 +79,7 @@ def test_whom_it_happens_to_does_not_seem_to_do_it(text: str, acts: str, acted_o
     [
         ("El libro está sobre la silla.", "ENCIMA", "DE_ACUERDO"),
         ("El perro duerme bajo el árbol.", "DEBAJO", "BAJAR"),
-        ("El cine está entre el banco y la farmacia.", "EN_MEDIO", "ENTRAR"),
+        ("El cine está entre el banco y la farmacia.", "ENTRE", "ENTRAR"),
         ("Ni mi tía ni mi abuelo conducen.", "NO", "NI"),
         ("Hoy estoy peor que el martes.", "HOY", "ESTAR"),
     ],

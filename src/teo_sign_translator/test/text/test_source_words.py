@@ -55,6 +55,8 @@ def _forms(sentence: str) -> list[str]:
         ("Julia Díez, veintidós, veintidos", "julia|díez|,|22|,|22"),
         ("Me gusta 😀 mucho!!!", "me|gusta|mucho|!"),
         ("“Hola”, dijo", "hola|,|dijo"),
+        ("carísimo, riquisimas y el mismísimo rey", "muy|caro|,|muy|ricas|y|el|mismísimo|rey"),
+        ("un puesto en la uni entre semana", "un|puesto|en|la|universidad|de|lunes|a|viernes"),
         ("", ""),
     ],
 )
