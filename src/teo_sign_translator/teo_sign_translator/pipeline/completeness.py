@@ -290,7 +290,8 @@ class Completeness:
         taken: set[int] = set()
         result: list[list[int]] = []
         for gloss in glosses:
-            lemmas = sorted(frozenset[str]().union(*self.gloss_words.get(gloss.gloss, ())))
+            ways = (way for way in self.gloss_words.get(gloss.gloss, ()) if by_lemma.keys() >= way)
+            lemmas = sorted(frozenset[str]().union(*ways))
             choices = [by_gloss.get(gloss.gloss, []), *(by_lemma.get(lemma, []) for lemma in lemmas)]
             result.append([_likeliest(places, gloss, taken) for places in choices if places])
             taken.update(result[-1])

@@ -297,6 +297,8 @@ def _told_by_neighbours(words: list[SourceWord], morphology: Morphology) -> list
         elif behind_copula or before in told.before_nouns or (before in told.before_masculine and masculine):
             readings = _without_verbs(word.readings, prepositions=behind_copula)
             words[place] = replace(word, readings=readings if behind_copula else _no_participles(readings))
+        elif place and words[place - 1].readings[0].tag.startswith(("PRON:obj", "PRON:refl")):
+            words[place] = replace(word, readings=_no_orders(word.readings))
         before = word.form
         behind_copula = word.readings[0].lemma in told.copulas or (
             behind_copula and word.form in told.degrees
@@ -322,6 +324,11 @@ def _is_participle(word: SourceWord, *, behind: SourceWord | None) -> bool:
 
 def _is_nominal(reading: Reading) -> bool:
     return not reading.tag.startswith((*_FINITE, "PREP"))
+
+
+def _no_orders(readings: tuple[Reading, ...]) -> tuple[Reading, ...]:
+    """What a word behind a pronoun that is acted upon may be: no order, on which it would hang ("lo di")."""
+    return tuple(each for each in readings if not each.tag.startswith("V:imp")) or readings
 
 
 def _no_participles(readings: tuple[Reading, ...]) -> tuple[Reading, ...]:

@@ -39,7 +39,8 @@ def test_who_is_known_is_not_pointed_at_again(text: str, expected: list[str]) ->
         ("Tengo hambre y quiero pan.", "YO HAMBRE PAN QUERER"),
         ("No salgo porque tengo frío.", "YO SALIR NO PORQUE FRÍO"),
         # Another one acts or is acted upon between the two: who does the second thing must be seen.
-        ("Tengo hambre y mi madre cocina y quiero pan.", "YO HAMBRE MADRE MI COCINAR YO PAN QUERER"),
+        ("Llamo a mi madre porque quiero pan.", "YO MADRE MI LLAMAR PORQUE YO PAN QUERER"),
+        ("Te llamo porque quiero pan.", "YO TÚ LLAMAR PORQUE YO PAN QUERER"),
     ],
 )
 def test_a_sentence_points_at_its_subject_once(text: str, expected: str) -> None:
