@@ -127,7 +127,8 @@ def _film(motion: Motion, renderer: Renderer, mp4: Path, view: Camera, fps: floa
     with MotionVideo(mp4, frames_per_second=fps) as video:
         # The last pose is shown too, hence one frame more than fit.
         count = int(np.ceil(motion.duration * fps)) + 1
-        for index in track(range(count), description="drawing", console=_console, transient=True):
+        hidden = not _console.is_terminal
+        for index in track(range(count), "drawing", console=_console, transient=True, disable=hidden):
             video.add(renderer.render(motion.at(index / fps), view))
 
 

@@ -63,7 +63,9 @@ def export(
         )
         motions = [
             sign_motion(planner, sign, period=period)
-            for sign in track(chosen, description="planning", console=_errors, transient=True)
+            for sign in track(
+                chosen, "planning", console=_errors, transient=True, disable=not _errors.is_terminal
+            )
         ]
         if format_ is ExportFormat.PLAY_MOTION2:
             out.parent.mkdir(parents=True, exist_ok=True)

@@ -175,7 +175,8 @@ def _write(plan: Plan, humanoid: Humanoid, csv: Path | None, mp4: Path | None, s
         write_strip(strip, plan, humanoid)
         _out.print(f"wrote {strip}", highlight=False, markup=False)
     if mp4 is not None:
-        shown = track(frames(plan), description="drawing", console=_err, transient=True)
+        hidden = not _err.is_terminal
+        shown = track(frames(plan), "drawing", console=_err, transient=True, disable=hidden)
         write_film(mp4, plan, humanoid, shown)
         _out.print(f"wrote {mp4}", highlight=False, markup=False)
 

@@ -48,7 +48,8 @@ def ease(
         # A table of a few signs stands among those of the package.
         easy = EasyTable(Robot.load(), dict(Lut.open()) | dict(table))
         chosen = [table[gloss] for gloss in glosses or table]
-        for sign in track(chosen, description="easing", console=_errors, transient=True):
+        hidden = not _errors.is_terminal
+        for sign in track(chosen, "easing", console=_errors, transient=True, disable=hidden):
             if sign.kind != "lexical":
                 continue
             easier = easy.eased(sign)

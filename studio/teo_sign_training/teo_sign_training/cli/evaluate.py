@@ -58,7 +58,8 @@ def outcomes(
     """Translate pairs, with a progress bar."""
     result: list[Outcome] = []
     starts = range(0, len(pairs), _CHUNK)
-    for start in track(starts, "translating", console=console, transient=True):
+    hidden = not console.is_terminal
+    for start in track(starts, "translating", console=console, transient=True, disable=hidden):
         some = pairs[start : start + _CHUNK]
         translated = model.translate_all([read(pair.text) for pair in some], beam=beam)
         for pair, (best, *_) in zip(some, translated, strict=True):

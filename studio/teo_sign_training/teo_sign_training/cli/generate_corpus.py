@@ -48,7 +48,8 @@ def run(
     unwanted += [pair.text for pair in own]
     made = generator.pairs(pairs, seed, unwanted, hold_out_constructions=hold_out_constructions)
     every = chain(own, made)
-    written = list(track(every, description="generating", total=pairs, console=console))
+    hidden = not console.is_terminal
+    written = list(track(every, "generating", total=pairs, console=console, disable=hidden))
     write_pairs(out / FILE_NAME, written)
     counts = {split: sum(pair.split == split for pair in written) for split in SPLITS}
     rules = len({pair.rule for pair in written})

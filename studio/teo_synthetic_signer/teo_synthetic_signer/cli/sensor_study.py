@@ -183,7 +183,10 @@ def _sensor_study(
     if unknown:
         raise typer.BadParameter(f"expected devices among {', '.join(SENSORS)}, got {', '.join(unknown)}")
     cases = [(name, distance) for name in names for distance in DISTANCES]
-    results = [study(*case, frames) for case in track(cases, "devices and distances", console=_out)]
+    results = [
+        study(*case, frames)
+        for case in track(cases, "devices and distances", console=_out, disable=not _out.is_terminal)
+    ]
     _out.print(table(results))
     write_csv(results, out)
     _out.print(f"written: {out}")
