@@ -49,7 +49,7 @@ class Topics:
     def repeated(self, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> list[int]:
         """The places of subjects that a clause before in the same sentence has said already.
 
-        "Llegué tarde porque perdí el tren" is YO LLEGAR TARDE PORQUE TREN PERDER. Only a verb's ending says
+        "No salgo porque quiero dormir" is YO SALIR NO PORQUE QUERER DORMIR. Only a verb's ending says
         such a subject, and nobody else is named, pointed at or acted upon up to there. A clause that
         describes a thing ("el abrigo que compraste") keeps it.
 

@@ -247,9 +247,9 @@ def test_a_closed_detector_frees_its_networks() -> None:
     gc.collect()
     assert graph() is None
     before = resident()
-    for _ in range(3):
+    for _ in range(5):
         MediaPipeDetector().close()
-    assert resident() - before < 80.0  # [MB]; each holds more than 50
+    assert resident() - before < 125.0  # [MB]; each holds more than 50, and what was freed may stay in use
 
 
 def resident() -> float:
