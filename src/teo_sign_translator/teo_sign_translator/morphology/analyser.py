@@ -96,6 +96,10 @@ class Morphology:
         found = self._candidates(form, strip_marks(form), capital=False)
         return any(each.effort in (EXACT, ACCENTS_MISSING) and each.source != NAME for each in found)
 
+    def is_form(self, written: str, lemma: str, tag: str) -> bool:
+        """Whether a lemma has the form that a tag names, and it is this one."""
+        return any(self._by_tag.get((lemma, asked)) == written for asked in _forms_that_serve(tag))
+
     def inflect(self, lemma: str, tag: str) -> str:
         """The form of a lemma that a tag names.
 

@@ -220,7 +220,7 @@ def _before_participle(words: Sequence[SourceWord], morphology: Morphology) -> b
     """Whether a participle comes before anything that cannot stand between it and its auxiliary."""
     for word in words:
         verbs = (reading.lemma for reading in word.readings if reading.tag.startswith("V:") and reading.exact)
-        if any(word.form == morphology.inflect(lemma, "V:part") for lemma in verbs):
+        if any(morphology.is_form(word.form, lemma, "V:part") for lemma in verbs):
             return True
         if not word.readings[0].tag.startswith(_INSIDE_PERFECT):
             return False

@@ -157,6 +157,8 @@ def test_a_verb_with_its_particle_is_inflected_as_the_verb_alone() -> None:
         ("They have put it there.", "have", "AUX", True),
         ("I have a broken chair.", "have", "AUX", False),
         ("We have to go.", "have", "AUX", False),
+        # Verbs without a participle.
+        ("What I have can wait.", "have", "AUX", False),
     ],
 )
 def test_what_a_clause_rules_out_is_no_reading(sentence: str, word: str, tag: str, may_be: bool) -> None:
