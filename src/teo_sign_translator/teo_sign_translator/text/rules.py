@@ -191,6 +191,7 @@ class Neighbours:
         copulas: Lemmas of verbs behind which no finite verb stands.
         degrees: Forms that may stand between a copula and what it says.
         perfect: What is typed for a form of the perfect's verb, in haste, and that form ("me a dicho": ha).
+        infinitive: What is typed for a form that an infinitive may follow, and that form ("no se nadar": sé).
     """
 
     before_nouns: frozenset[str]
@@ -198,6 +199,7 @@ class Neighbours:
     copulas: frozenset[str]
     degrees: frozenset[str]
     perfect: dict[str, str]
+    infinitive: dict[str, str]
 
 
 @dataclass(frozen=True)

@@ -279,11 +279,15 @@ def _divided(words: Sequence[SourceWord], following: Sequence[SourceWord], morph
 
 
 def _told_by_neighbours(words: list[SourceWord], morphology: Morphology) -> list[SourceWord]:
-    """The words, without the readings that the word before them rules out, the perfect typed right."""
+    """The words without readings that the word before them rules out; typed right where the one behind tells."""
     told = TextRules.load(morphology.folder).neighbours
     for place, (word, following) in enumerate(pairwise(words)):
         written = told.perfect.get(word.form)
-        if written and _is_participle(following, behind=words[place - 1] if place else None):
+        if written and not _is_participle(following, behind=words[place - 1] if place else None):
+            written = None
+        if following.readings[0].tag.startswith("V:inf"):
+            written = told.infinitive.get(word.form, written)
+        if written:
             words[place] = replace(word, form=written, readings=morphology.readings(written))
     if len(words) > 1 and words[1].is_mark:
         words[0] = replace(words[0], readings=_as_order(words[0].readings))

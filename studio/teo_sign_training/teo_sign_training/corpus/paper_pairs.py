@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Sentences whose translation is given, the paper's and the project's.
+"""Sentences whose translation is given: the paper's, the project's, and those that people would say.
 
-They are read as published, with their words aligned, and as training pairs, which every model has to know by
-heart.
+They are read as published, with their words aligned, and as training pairs. The paper's and the project's
+every model has to know by heart; from the others it learns what no grammar makes.
 """
 
 from __future__ import annotations
@@ -233,6 +233,21 @@ def memorised_pairs(read: Reader, folder: Path | None = None) -> tuple[Pair, ...
             for stop in ("", "" if pair.sentence[-1] in "?!…" else ".")
         )
     )
+
+
+def written_pairs(read: Reader, folder: Path | None = None) -> tuple[Pair, ...]:
+    """The pairs of `written_pairs.tsv`, which says who wrote them; none for a language without that file.
+
+    Args:
+        read: How sentences become words.
+        folder: The language's text folder; by default that of the default language.
+
+    Raises:
+        TranslationError: "invalid_data" if a gloss stands for a word that is not read from its sentence.
+    """
+    path = (folder or data_file("")) / "written_pairs.tsv"
+    aligned = read_aligned_pairs(path) if path.is_file() else []
+    return tuple(replace(filled(pair, "", "", read), rule="written") for pair in aligned)
 
 
 def ways_of_typing(sentence: str) -> tuple[str, ...]:

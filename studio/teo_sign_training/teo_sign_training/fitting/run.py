@@ -19,7 +19,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, Ti
 from teo_sign_languages import Language
 from teo_sign_training.corpus import Pair
 from teo_sign_training.corpus.pairs import corpus_hash, read_splits, sample, without
-from teo_sign_training.corpus.paper_pairs import Reader, memorised_pairs, not_memorised
+from teo_sign_training.corpus.paper_pairs import Reader, memorised_pairs, not_memorised, written_pairs
 from teo_sign_training.fitting.fitting import Fit, TrainingConfig, TrainingProgress, fit
 from teo_sign_training.fitting.metrics import Score, score
 from teo_sign_translator.pointer.config import NetworkConfig
@@ -38,6 +38,7 @@ class TrainingData:
         train: To learn from; none is typed like one of `by_heart`, whose glosses may differ.
         held_out: By split, the others.
         by_heart: The paper's and the project's pairs.
+        written: Pairs that no grammar made.
         corpus: Where they come from.
         sha256: Of the corpus files.
         language: That is learned.
@@ -46,6 +47,7 @@ class TrainingData:
     train: list[Pair]
     held_out: dict[str, list[Pair]]
     by_heart: tuple[Pair, ...]
+    written: tuple[Pair, ...]
     corpus: Path
     sha256: str
     language: Language
@@ -86,7 +88,9 @@ def load_training_data(
     splits = read_splits(corpus)
     by_heart = memorised_pairs(read, language.text)
     train = without(splits.pop("train"), (pair.text for pair in by_heart))
-    return TrainingData(sample(train, pairs, seed), splits, by_heart, corpus, corpus_hash(corpus), language)
+    written = tuple(without(list(written_pairs(read, language.text)), (pair.text for pair in by_heart)))
+    train = sample(train, pairs, seed)
+    return TrainingData(train, splits, by_heart, written, corpus, corpus_hash(corpus), language)
 
 
 def train_model(
@@ -132,7 +136,17 @@ def train_model(
         for member in range(network.members):
             own = dataclasses.replace(config, seed=config.seed + member)
             fits.append(
-                fit(data.train, dev, data.by_heart, read, network, own, device=device, on_progress=show)
+                fit(
+                    data.train,
+                    dev,
+                    data.by_heart,
+                    read,
+                    network,
+                    own,
+                    written=data.written,
+                    device=device,
+                    on_progress=show,
+                )
             )
     fitted = fits[0]
     card = {
@@ -146,6 +160,7 @@ def train_model(
             "pairs": fitted.pairs,
             "left_out": fitted.left_out,
             "by_heart": len(data.by_heart),
+            "written": len(data.written),
         },
         "made_by": {
             "commit": _commit(),

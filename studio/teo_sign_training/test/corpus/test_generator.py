@@ -23,7 +23,7 @@ QUESTION_GLOSSES = {
     "QUÉ", "QUIÉN", "CUÁL", "CÓMO", "CUÁNDO", "DÓNDE", "CUÁNTO", "CUÁNTOS", "POR_QUÉ", "PARA_QUÉ",
 }  # fmt: skip
 ENCLITICS = re.compile(r"(?<=[aeiouáéíóúrdnzl])(se|me|te|nos|os)?(lo|la|los|las|le|les|me|te|nos|os|se)$")
-NEGATIONS = ("NO", "NUNCA", "NADIE", "TODAVÍA_NO", "TAMPOCO")
+NEGATIONS = ("NO", "NUNCA", "NADA", "NADIE", "TODAVÍA_NO", "TAMPOCO")
 
 
 @pytest.fixture(scope="module")
