@@ -279,7 +279,7 @@ def _divided(words: Sequence[SourceWord], following: Sequence[SourceWord], morph
 
 
 def _told_by_neighbours(words: list[SourceWord], morphology: Morphology) -> list[SourceWord]:
-    """The words without readings that the word before them rules out; typed right where the one behind tells."""
+    """The words, without readings that the one before rules out; typed right where the one behind tells."""
     told = TextRules.load(morphology.folder).neighbours
     for place, (word, following) in enumerate(pairwise(words)):
         written = told.perfect.get(word.form)
