@@ -190,14 +190,15 @@ class Completeness:
         function_words: What may be left out.
         gloss_words: For each gloss the lemmas that it signs though they are not its own: ways to say it, each
             of one lemma or of several together.
-        wordless: Glosses that no word need say; None if any gloss may be said so.
+        wordless: Glosses that no word need say, each with the beginnings of the tags of which a sentence must
+            have one, if any; None if any gloss may be said so.
         words: Words of the language with a rule of their own.
         tags: Words that ask for agreement behind a sentence ("…, ¿no?"), and deny nothing there.
     """
 
     function_words: FunctionWords
     gloss_words: Mapping[str, frozenset[frozenset[str]]]
-    wordless: frozenset[str] | None
+    wordless: Mapping[str, tuple[str, ...]] | None
     words: CompletenessWords
     tags: frozenset[str]
 
@@ -225,11 +226,17 @@ class Completeness:
         if self.wordless is None:
             return []
         by_gloss, by_lemma = _places(words)
+        tags = [reading.tag for word in words for reading in _as_typed(word)]
+        free = {
+            gloss
+            for gloss, beginnings in self.wordless.items()
+            if not beginnings or any(tag.startswith(beginnings) for tag in tags)
+        }
         return [
             gloss
             for gloss in glosses
             if gloss not in by_gloss
-            and gloss not in self.wordless
+            and gloss not in free
             and not any(by_lemma.keys() >= way for way in self.gloss_words.get(gloss, ()))
         ]
 
@@ -352,8 +359,16 @@ def read_gloss_words(path: Path) -> dict[str, frozenset[frozenset[str]]]:
     return {gloss: frozenset(frozenset(way.split("+")) for way in ways) for gloss, ways in listed.items()}
 
 
-def _read_wordless(path: Path) -> frozenset[str] | None:
-    return frozenset(row[0] for _, row in read_rows(path, columns=2)) if path.is_file() else None
+def _read_wordless(path: Path) -> dict[str, tuple[str, ...]] | None:
+    if not path.is_file():
+        return None
+    rows = [row for _, row in read_rows(path, columns=3)]
+    return {gloss: () if tags == "*" else tuple(tags.split()) for gloss, tags, _ in rows}
+
+
+def _as_typed(word: SourceWord) -> Sequence[Reading]:
+    """What a word is as it was typed; what it would be with other accents, where it is nothing so."""
+    return [reading for reading in word.readings if reading.exact] or word.readings
 
 
 def _each_word_once(words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> tuple[OutputGloss, ...]:

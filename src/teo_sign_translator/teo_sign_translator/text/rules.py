@@ -191,7 +191,7 @@ class Neighbours:
         copulas: Lemmas of verbs behind which no finite verb stands.
         degrees: Forms that may stand between a copula and what it says.
         perfect: What is typed for a form of the perfect's verb, in haste, and that form ("me a dicho": ha).
-        infinitive: What is typed for a form that an infinitive may follow, and that form ("no se nadar": sé).
+        infinitive: What is typed for a form that an infinitive may follow, and that form ("se ir solo": sé).
     """
 
     before_nouns: frozenset[str]
