@@ -28,9 +28,9 @@ PARTS = re.compile(r"(?<=[.?!…])\s+|[;\"“”«»]")
 # Translations that are accepted for one sentence. A judge of sentences that nobody has seen names few; the
 # others were written more generously.
 MOST_ACCEPTED = {"blind": 6, "known": 200, "ase/blind": 6, "ase/known": 200, "ase/published": 200}
-# Known sentences that must come out as accepted, by set and language. The shipped translators have 935 of the
+# Known sentences that must come out as accepted, by set and language. The shipped translators have 951 of the
 # 1281, 149 of the 152 and 47 of the 99: a mend of one may cost another one or two; more is a loss.
-FLOORS = {("known", "ssp"): 930, ("ase/known", "ase"): 146, ("ase/published", "ase"): 45}
+FLOORS = {("known", "ssp"): 945, ("ase/known", "ase"): 146, ("ase/published", "ase"): 45}
 
 
 def lines(root: Path, name: Path | str) -> list[str]:
