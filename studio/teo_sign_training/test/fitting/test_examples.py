@@ -16,6 +16,7 @@ from teo_sign_training.corpus.paper_pairs import (
     memorised_pairs,
     paper_pairs,
     training_pairs,
+    written_pairs,
 )
 from teo_sign_training.fitting.batches import WordNumbers, batches
 from teo_sign_training.fitting.examples import (
@@ -29,7 +30,9 @@ from teo_sign_training.fitting.examples import (
 )
 from teo_sign_training.fitting.fitting import make_vocabulary
 from teo_sign_translator.morphology import Morphology, gloss_name
-from teo_sign_translator.pointer.vocabulary import UNKNOWN_TAG
+from teo_sign_translator.pointer.config import POINTER
+from teo_sign_translator.pointer.decoding import load_sentence_model
+from teo_sign_translator.pointer.vocabulary import UNKNOWN_TAG, copied_gloss
 from teo_sign_translator.text.source_words import source_words
 
 PAIRS = (
@@ -182,3 +185,15 @@ def test_hidden_nouns_may_be_words_of_which_nothing_is_known() -> None:
         for tag in batch.tags[..., 0].ravel().tolist()
     ]
     assert tags.count(unknown) == pytest.approx(100, abs=40)  # "pan" alone: half of 200 times
+
+
+def test_no_sentence_is_written_twice_and_every_gloss_of_a_written_pair_is_said_by_a_word_or_taught() -> None:
+    """Else its pair would teach nothing: training leaves it out without a word."""
+    pairs = written_pairs(read())
+    assert len({folded(pair.text) for pair in pairs}) == len(pairs) > 1000
+    taught = frozenset(load_sentence_model(POINTER).arrays.vocabulary.glosses)
+    for pair in pairs:
+        words = read()(pair.text)
+        for gloss, places in zip(pair.glosses, pair.alignment, strict=True):
+            copies = {copied_gloss(reading) for place in places for reading in words[place].readings}
+            assert gloss in copies | taught, pair
