@@ -82,9 +82,19 @@ def test_whom_it_happens_to_does_not_seem_to_do_it(text: str, acts: str, acted_o
         ("El cine está entre el banco y la farmacia.", "ENTRE", "ENTRAR"),
         ("Ni mi tía ni mi abuelo conducen.", "NO", "NI"),
         ("Hoy estoy peor que el martes.", "HOY", "ESTAR"),
+        ("Ninguno de los tres vino.", "VENIR", "VINO"),
+        ("No levantes peso.", "PESO", "YO"),
+        ("Mi tía habla como si fuera mi madre.", "IGUAL", "IR"),
+        ("Le quitaron la llave para que no cayera.", "CAER", "YO"),
+        ("Cuanto más estudio, menos duermo.", "MENOS", "ESTUDIO"),
+        ("no se cocinar", "SABER", "SE"),
+        ("gracias x la comida", "COMIDA", "X"),
+        ("sta carta es pa ti", "TÚ", "PA"),
+        ("El agua sale por debajo de la mesa.", "DEBAJO", "MOTIVO"),
+        ("Estoy cansado y aun así trabajo.", "PERO", "ASÍ"),
     ],
 )
-def test_a_preposition_is_no_verb_and_no_denial_is_lost(text: str, said: str, false: str) -> None:
+def test_words_that_look_alike_are_told_apart_and_no_denial_is_lost(text: str, said: str, false: str) -> None:
     glosses = str(translator().translate(text)).split()
     assert said in glosses and false not in glosses
 
