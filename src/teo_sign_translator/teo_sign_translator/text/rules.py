@@ -192,6 +192,7 @@ class Neighbours:
         degrees: Forms that may stand between a copula and what it says.
         perfect: What is typed for a form of the perfect's verb, in haste, and that form ("me a dicho": ha).
         infinitive: What is typed for a form that an infinitive may follow, and that form ("se ir solo": sé).
+        amounts: Forms that are no verb where they open a clause, and the forms behind them ("nada más").
     """
 
     before_nouns: frozenset[str]
@@ -200,6 +201,7 @@ class Neighbours:
     degrees: frozenset[str]
     perfect: dict[str, str]
     infinitive: dict[str, str]
+    amounts: dict[str, str]
 
 
 @dataclass(frozen=True)

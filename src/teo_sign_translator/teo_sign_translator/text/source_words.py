@@ -289,6 +289,9 @@ def _told_by_neighbours(words: list[SourceWord], morphology: Morphology) -> list
             written = told.infinitive.get(word.form, written)
         if written:
             words[place] = replace(word, form=written, readings=morphology.readings(written))
+        opens = not place or words[place - 1].is_mark
+        if opens and following.form in told.amounts.get(word.form, "").split():
+            words[place] = replace(word, readings=_without_verbs(word.readings, prepositions=False))
     if len(words) > 1 and words[1].is_mark:
         words[0] = replace(words[0], readings=_as_order(words[0].readings))
     behind_copula = False

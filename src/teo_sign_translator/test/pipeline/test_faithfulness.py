@@ -88,6 +88,7 @@ def test_whom_it_happens_to_does_not_seem_to_do_it(text: str, acts: str, acted_o
         ("Le quitaron la llave para que no cayera.", "CAER", "YO"),
         ("Cuanto más estudio, menos duermo.", "MENOS", "ESTUDIO"),
         ("no se cocinar", "SABER", "SE"),
+        ("Gracias, nada más.", "NADA", "NADAR"),
         ("gracias x la comida", "COMIDA", "X"),
         ("sta carta es pa ti", "TÚ", "PA"),
         ("El agua sale por debajo de la mesa.", "DEBAJO", "MOTIVO"),
