@@ -126,7 +126,7 @@ def decode(message: str) -> FromPage:
 TokenKind = Literal["sign", "letter", "number", "pause"]
 Origin = Literal[
     "unknown", "model", "lemma", "synonym", "spelled", "number", "repaired", "word_list", "pause",
-    "paraphrase", "draft",
+    "paraphrase",
 ]  # fmt: skip
 SentenceType = Literal["statement", "yes_no_question", "wh_question", "exclamation"]
 SentenceState = Literal["waiting", "signing", "signed", "refused"]

@@ -89,6 +89,12 @@ def _opening_name(
 
 _FINITE = ("V:ind", "V:sub", "V:cond", "V:imp")
 _MASCULINE = re.compile("[NA]:[mc][sn]|V:part:ms")
+# Forms of a verb that tell its person, as not every language's do.
+_PERSONAL = re.compile(f"(?:{'|'.join(_FINITE)}).*:[123][sp]")
+# Pronouns that are subjects alone; articles that are pronouns too, or stand before them, hence not el and un,
+# which stand before feminine nouns too.
+_SUBJECTS = ("PRON:1s", "PRON:2s")
+_ARTICLE = re.compile("DET:(?:in)?def:(?!ms)([fm])([sp])")
 
 #: From so many words on, a capital on each of them is a habit of the writer's, not a row of names.
 _TITLE_CASE_WORDS = 5
@@ -297,6 +303,8 @@ def _told_by_neighbours(words: list[SourceWord], morphology: Morphology) -> list
     behind_copula = False
     before = ""
     for place, word in enumerate(words):
+        if place:
+            word = words[place] = replace(word, readings=_behind(words, place, morphology))
         nominal = tuple(filter(_is_nominal, word.readings))
         masculine = any(_MASCULINE.match(reading.tag) for reading in nominal)
         if before in told.before_nouns and not nominal:
@@ -311,6 +319,50 @@ def _told_by_neighbours(words: list[SourceWord], morphology: Morphology) -> list
             behind_copula and word.form in told.degrees
         )
     return words
+
+
+def _behind(words: Sequence[SourceWord], place: int, morphology: Morphology) -> tuple[Reading, ...]:
+    """The readings of a word that may stand behind the one before it.
+
+    No noun stands behind a pronoun ("yo cuento", "que me firmes"); no finite verb behind another or behind
+    a preposition ("no llevo suelto", "sin falta"), but an order may follow an order ("espera llama a Ana").
+    Behind an article that may be a pronoun a noun agrees with it ("las riego"), and what does so is hardly a
+    subjunctive ("la calle").
+    """
+    word, before = words[place], words[place - 1]
+    verbs = tuple(each for each in word.readings if _PERSONAL.fullmatch(each.tag))
+    others = tuple(each for each in word.readings if each not in verbs)
+    if not verbs or not any(each.exact for each in others):
+        return word.readings
+    if any(each.exact for each in verbs) and all(each.tag in _SUBJECTS for each in before.readings):
+        return tuple(each for each in word.readings if not each.tag.startswith("N:"))
+    if all(each.tag.startswith("PRON:obj") for each in before.readings):
+        return verbs if any(each.exact for each in verbs) else word.readings
+    tags = [each.tag for each in before.readings if each.exact]
+    if tags and all(tag.startswith("PREP") or _PERSONAL.fullmatch(tag) for tag in tags):
+        opens = place == 1 or words[place - 2].is_mark
+        orders = opens and _may_order(before, morphology) and _may_order(word, morphology)
+        return word.readings if orders else others
+    article = next(filter(None, map(_ARTICLE.fullmatch, tags)), None)
+    if article is None:
+        return word.readings
+    agreeing = tuple(each for each in others if _agrees(each, *article.groups()))
+    denied = place > 1 and words[place - 2].readings[0].tag == "ADV:neg"
+    if agreeing and not denied and all(each.tag.startswith("V:sub") for each in verbs if each.exact):
+        return agreeing
+    return tuple(each for each in word.readings if each in agreeing or not each.tag.startswith(("N:", "A:")))
+
+
+def _may_order(word: SourceWord, morphology: Morphology) -> bool:
+    """Whether a word may be an order to somebody who is called *tú*."""
+    verbs = {reading.lemma for reading in word.readings if reading.tag.startswith(_FINITE)}
+    return any(morphology.is_form(word.form, verb, "V:imp:2s") for verb in verbs)
+
+
+def _agrees(reading: Reading, gender: str, number: str) -> bool:
+    """Whether a noun or adjective may stand behind an article; any other word may."""
+    kind, _, form = reading.tag.rpartition(":")
+    return kind not in ("N", "A") or (form[:1] in (gender, "c") and form[1:] in (number, "n"))
 
 
 def _as_order(readings: tuple[Reading, ...]) -> tuple[Reading, ...]:

@@ -136,6 +136,17 @@ def test_no_word_of_the_lexicon_is_taken_for_another_that_sounds_so() -> None:
         ("el grito me asustó", "grito", "V:"),
         ("dentro del sobre", "sobre", "PREP"),
         ("el trabajo es muy duro", "duro", "V:"),
+        ("no llevo suelto", "suelto", "V:"),
+        ("esperamos bajo el puente", "bajo", "V:"),
+        ("llama sin falta", "falta", "V:"),
+        ("las riego mañana", "riego", "N:"),
+        ("te la mando luego", "mando", "N:"),
+        ("perdí la cosa", "cosa", "V:"),
+        ("los fines de mes", "fines", "V:"),
+        ("quiero que me firmes esto", "firmes", "A:"),
+        ("no me llama nadie", "llama", "N:"),
+        ("se me olvido ayer", "olvido", "N:"),
+        ("yo cuento hasta tres", "cuento", "N:"),
     ],
 )
 def test_a_neighbour_rules_out_what_a_word_cannot_be(sentence: str, word: str, impossible: str) -> None:
@@ -152,6 +163,12 @@ def test_a_neighbour_rules_out_what_a_word_cannot_be(sentence: str, word: str, i
         ("el llama a su madre", "llama", "V:"),  # él
         ("el vive en casa", "vive", "V:"),
         ("el beber agua", "beber", "V:inf"),
+        ("espera llama a Ana", "llama", "V:"),  # orders without a comma
+        ("la cuenta", "cuenta", "V:"),
+        ("la cuenta", "cuenta", "N:"),
+        ("no la meta ahí", "meta", "V:sub"),
+        ("no se nada", "nada", "PRON"),  # no sé nada
+        ("un te caliente", "caliente", "A:"),  # un té
     ],
 )
 def test_where_both_may_stand_both_are_read(sentence: str, word: str, possible: str) -> None:

@@ -10,7 +10,6 @@ const MARKS = {
   repaired: "↺",
   word_list: "≡",
   paraphrase: "≈",
-  draft: "?",
 };
 // As the translator's own threshold below which it calls a sentence uncertain.
 const SURE = 0.7;
