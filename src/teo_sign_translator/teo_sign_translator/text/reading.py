@@ -161,8 +161,8 @@ class _Reader:
             return address.end()
         if character in "0123456789":
             return self._digits(index)
-        found = self._rules.expressions.match(text, index)
-        if found is not None and (found.expression.category != "unit" or self._after_number()):
+        found = self._rules.expressions.match(text, index, after_number=self._after_number())
+        if found is not None:
             return self._expression(index, found)
         if _is_letter(character):
             after = _word_end(text, after)

@@ -13,7 +13,7 @@ from teo_common.text_folding import fold
 from teo_sign_translator.data_files import data_file, invalid_line, read_rows, read_sections
 from teo_sign_translator.text.numerals import Numerals
 
-_CLASSES = ("title", "unit", "word", "chat")
+_CLASSES = ("title", "unit", "word", "chat", "particle")
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,8 +47,8 @@ class Found:
 class Expressions:
     """Finds short forms and symbols at a place of a text."""
 
-    def __init__(self, entries: dict[str, Expression]) -> None:
-        """Index the entries by how they are typed, in lower case."""
+    def __init__(self, entries: dict[str, tuple[Expression, ...]]) -> None:
+        """Index the entries, one of each class, by how they are typed, in lower case."""
         self._entries = dict(entries)
         # Longest first: "p. ej." before "p".
         forms = sorted(entries, key=len, reverse=True)
@@ -63,26 +63,31 @@ class Expressions:
         Raises:
             TranslationError: "invalid_data", with file and line.
         """
-        entries: dict[str, Expression] = {}
+        entries: dict[str, tuple[Expression, ...]] = {}
         for number, (forms, category, said) in read_rows(path, columns=3):
             words = tuple(word.replace("_", " ") for word in said.split())
             for form in (form.strip() for form in forms.split(",")):
-                if category not in _CLASSES or not form or form != form.lower() or form in entries:
-                    expected = "short forms in lower case, each listed once, and a class of "
+                others = entries.get(form, ())
+                again = any(each.category == category for each in others)
+                if category not in _CLASSES or not form or form != form.lower() or again:
+                    expected = "short forms in lower case, each once in a class, and a class of "
                     got = f"'{form}' and '{category}'"
                     raise invalid_line(path, number, expected + ", ".join(_CLASSES), got)
-                entries[form] = Expression(category, words)
+                entries[form] = (*others, Expression(category, words))
         return cls(entries)
 
     def stands_for(self, form: str) -> tuple[str, ...]:
         """The words that a form in lower case stands for; none if it is not listed."""
-        expression = self._entries.get(form.lower())
-        return expression.words if expression else ()
+        expressions = self._entries.get(form.lower(), ())
+        return expressions[0].words if expressions else ()
 
-    def match(self, text: str, start: int) -> Found | None:
+    def match(self, text: str, start: int, *, after_number: bool) -> Found | None:
         """The longest expression that begins at a place of a clean text where a word may begin.
 
-        Whether a number stands before a unit is for the caller to see.
+        Args:
+            text: The whole of it.
+            start: The place.
+            after_number: Whether a number stands just before, so that a unit may follow.
         """
         if text[start] not in self._initials or self._pattern is None:
             return None
@@ -91,18 +96,34 @@ class Expressions:
             return None
         typed = match.group()
         form = " ".join(typed.lower().split())
-        expression = self._entries.get(form) or self._entries.get(form.removesuffix("."))
-        if expression is None:
-            return None
-        if expression.category == "chat" and len(form) == 1 and typed.isupper():
-            before = text[:start].rstrip(" ¿¡")
-            if before and before[-1] not in ".?!…\n":
-                return None
-        if expression.category == "title" and form in self._entries and typed.endswith("."):
-            following = text[match.end() :].lstrip(" ")[:1]
-            if not following.isupper():  # "D. Juan", but not "vitamina d."
-                return None
-        return Found(expression, match.end(), typed.endswith("."))
+        expressions = self._entries.get(form) or self._entries.get(form.removesuffix("."), ())
+        for expression in expressions:
+            pointed = form in self._entries and typed.endswith(".")
+            if _fits(expression.category, typed, text[:start], text[match.end() :], pointed, after_number):
+                return Found(expression, match.end(), typed.endswith("."))
+        return None
+
+
+def _fits(category: str, typed: str, before: str, behind: str, pointed: bool, after_number: bool) -> bool:
+    """Whether what was typed is a short form of a class there.
+
+    Args:
+        category: The class.
+        typed: The form, its point included.
+        before: The text before it.
+        behind: The text behind it.
+        pointed: Whether its point is its own.
+        after_number: Whether a number stands just before.
+    """
+    if category == "unit":
+        return after_number
+    if category == "particle":
+        return typed.islower() and behind[:1] == " " and behind[1:2].isalnum()
+    if category == "chat" and len(typed.removesuffix(".")) == 1 and typed.isupper():
+        said = before.rstrip(" ¿¡")
+        return not said or said[-1] in ".?!…\n"
+    # "D. Juan", but not "vitamina d."
+    return not (category == "title" and pointed) or behind.lstrip(" ")[:1].isupper()
 
 
 def _form_pattern(form: str) -> str:
@@ -192,7 +213,7 @@ class Neighbours:
         degrees: Forms that may stand between a copula and what it says.
         perfect: What is typed for a form of the perfect's verb, in haste, and that form ("me a dicho": ha).
         infinitive: What is typed for a form that an infinitive may follow, and that form ("se ir solo": sé).
-        amounts: Forms that are no verb where they open a clause, and the forms behind them ("nada más").
+        amounts: Forms that are no verb before others, and these ("nada más", "nada de").
     """
 
     before_nouns: frozenset[str]

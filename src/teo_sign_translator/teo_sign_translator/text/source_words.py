@@ -11,7 +11,7 @@ beside it makes it a name.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice, pairwise
 
@@ -91,10 +91,10 @@ _FINITE = ("V:ind", "V:sub", "V:cond", "V:imp")
 _MASCULINE = re.compile("[NA]:[mc][sn]|V:part:ms")
 # Forms of a verb that tell its person, as not every language's do.
 _PERSONAL = re.compile(f"(?:{'|'.join(_FINITE)}).*:[123][sp]")
-# Pronouns that are subjects alone; articles that are pronouns too, or stand before them, hence not el and un,
-# which stand before feminine nouns too.
+# Pronouns that are subjects alone; question words, and articles that are pronouns too or stand before them:
+# not el and un, which stand before feminine nouns too.
 _SUBJECTS = ("PRON:1s", "PRON:2s")
-_ARTICLE = re.compile("DET:(?:in)?def:(?!ms)([fm])([sp])")
+_ARTICLE = re.compile("(?:DET:(?:in)?def:(?!ms)|WH:)([fm])([sp])")
 
 #: From so many words on, a capital on each of them is a habit of the writer's, not a row of names.
 _TITLE_CASE_WORDS = 5
@@ -295,8 +295,9 @@ def _told_by_neighbours(words: list[SourceWord], morphology: Morphology) -> list
             written = told.infinitive.get(word.form, written)
         if written:
             words[place] = replace(word, form=written, readings=morphology.readings(written))
-        opens = not place or words[place - 1].is_mark
-        if opens and following.form in told.amounts.get(word.form, "").split():
+        if following.form not in told.amounts and _does(word, following, told.copulas):
+            words[place] = word = replace(word, readings=_does(word, following, told.copulas))
+        if following.form in told.amounts.get(word.form, "").split():
             words[place] = replace(word, readings=_without_verbs(word.readings, prepositions=False))
     if len(words) > 1 and words[1].is_mark:
         words[0] = replace(words[0], readings=_as_order(words[0].readings))
@@ -327,7 +328,7 @@ def _behind(words: Sequence[SourceWord], place: int, morphology: Morphology) -> 
     No noun stands behind a pronoun ("yo cuento", "que me firmes"); no finite verb behind another or behind
     a preposition ("no llevo suelto", "sin falta"), but an order may follow an order ("espera llama a Ana").
     Behind an article that may be a pronoun a noun agrees with it ("las riego"), and what does so is hardly a
-    subjunctive ("la calle").
+    subjunctive ("la calle"), and none behind a verb or a preposition ("pitó la falta").
     """
     word, before = words[place], words[place - 1]
     verbs = tuple(each for each in word.readings if _PERSONAL.fullmatch(each.tag))
@@ -336,10 +337,10 @@ def _behind(words: Sequence[SourceWord], place: int, morphology: Morphology) -> 
         return word.readings
     if any(each.exact for each in verbs) and all(each.tag in _SUBJECTS for each in before.readings):
         return tuple(each for each in word.readings if not each.tag.startswith("N:"))
-    if all(each.tag.startswith("PRON:obj") for each in before.readings):
+    if all(each.tag.startswith(("PRON:obj", "PRON:refl")) for each in before.readings):
         return verbs if any(each.exact for each in verbs) else word.readings
     tags = [each.tag for each in before.readings if each.exact]
-    if tags and all(tag.startswith("PREP") or _PERSONAL.fullmatch(tag) for tag in tags):
+    if _governs(before):
         opens = place == 1 or words[place - 2].is_mark
         orders = opens and _may_order(before, morphology) and _may_order(word, morphology)
         return word.readings if orders else others
@@ -348,9 +349,16 @@ def _behind(words: Sequence[SourceWord], place: int, morphology: Morphology) -> 
         return word.readings
     agreeing = tuple(each for each in others if _agrees(each, *article.groups()))
     denied = place > 1 and words[place - 2].readings[0].tag == "ADV:neg"
-    if agreeing and not denied and all(each.tag.startswith("V:sub") for each in verbs if each.exact):
+    unlikely = not denied and all(each.tag.startswith("V:sub") for each in verbs if each.exact)
+    if agreeing and (unlikely or (place > 1 and _governs(words[place - 2]))):
         return agreeing
     return tuple(each for each in word.readings if each in agreeing or not each.tag.startswith(("N:", "A:")))
+
+
+def _governs(word: SourceWord) -> bool:
+    """Whether a word is a finite verb or a preposition, and nothing else."""
+    tags = [each.tag for each in word.readings if each.exact]
+    return bool(tags) and all(tag.startswith("PREP") or _PERSONAL.fullmatch(tag) for tag in tags)
 
 
 def _may_order(word: SourceWord, morphology: Morphology) -> bool:
@@ -363,6 +371,21 @@ def _agrees(reading: Reading, gender: str, number: str) -> bool:
     """Whether a noun or adjective may stand behind an article; any other word may."""
     kind, _, form = reading.tag.rpartition(":")
     return kind not in ("N", "A") or (form[:1] in (gender, "c") and form[1:] in (number, "n"))
+
+
+def _does(word: SourceWord, following: SourceWord, copulas: Collection[str]) -> tuple[Reading, ...]:
+    """The readings of a word to which the one behind leaves no choice; none if there is one.
+
+    A reflexive pronoun before a verb is no verb typed without its accent ("se lima las uñas"), and a form of
+    two verbs is the copula's before an adjective ("sé amable", "fue feliz").
+    """
+    tags = [each.tag for each in following.readings if each.exact]
+    exact = tuple(each for each in word.readings if each.exact)
+    if exact and all(each.tag.startswith("PRON:refl") for each in exact):
+        acts = any(_PERSONAL.fullmatch(tag) and tag[-2:-1] == "3" for tag in tags)
+        return exact if acts else ()
+    adjective = bool(tags) and all(tag.startswith("A:") for tag in tags)
+    return tuple(each for each in exact if adjective and each.lemma in copulas)
 
 
 def _as_order(readings: tuple[Reading, ...]) -> tuple[Reading, ...]:

@@ -57,6 +57,8 @@ def _forms(sentence: str) -> list[str]:
         ("“Hola”, dijo", "hola|,|dijo"),
         ("carísimo, riquisimas y el mismísimo rey", "muy|caro|,|muy|ricas|y|el|mismísimo|rey"),
         ("un puesto en la uni entre semana", "un|puesto|en|la|universidad|de|lunes|a|viernes"),
+        ("t digo q a las 5 d la tarde m voy", "te|digo|que|a|las|5|de|la|tarde|me|voy"),
+        ("3 m d tela xa ti, talla m", "3|metros|de|tela|para|ti|,|talla|m"),
         ("", ""),
     ],
 )
@@ -147,6 +149,10 @@ def test_no_word_of_the_lexicon_is_taken_for_another_that_sounds_so() -> None:
         ("no me llama nadie", "llama", "N:"),
         ("se me olvido ayer", "olvido", "N:"),
         ("yo cuento hasta tres", "cuento", "N:"),
+        ("pitó la falta", "falta", "V:"),
+        ("¿cuánto ganas?", "ganas", "N:"),
+        ("se lima las uñas", "lima", "N:"),
+        ("así que nada de fútbol", "nada", "V:"),
     ],
 )
 def test_a_neighbour_rules_out_what_a_word_cannot_be(sentence: str, word: str, impossible: str) -> None:
@@ -179,3 +185,9 @@ def test_where_both_may_stand_both_are_read(sentence: str, word: str, possible: 
 def test_a_verb_that_stands_alone_is_an_order() -> None:
     assert {reading.lemma for reading in _read("Ven, que es tarde.")[0].readings} == {"venir"}
     assert {reading.lemma for reading in _read("Ven la película.")[0].readings} == {"venir", "ver"}
+
+
+def test_a_form_of_two_verbs_is_the_copula_before_an_adjective() -> None:
+    assert {reading.lemma for reading in _read("Sé amable.")[0].readings} == {"ser"}
+    assert {reading.lemma for reading in _read("Fui feliz.")[0].readings} == {"ser"}
+    assert {reading.lemma for reading in _read("Fui al bar.")[0].readings} == {"ir", "ser"}
