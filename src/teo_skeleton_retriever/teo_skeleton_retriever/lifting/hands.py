@@ -51,6 +51,14 @@ _LEAST_SHARE, _GREATEST_SHARE = 0.85, 1.25
 _SCALES = np.geomspace(0.05, 20000.0, 120)
 # A guess of depth must make the bones' lengths more even than none by this share, or it is noise.
 _LEAST_TURN = 0.02
+# [rad] A palm seems to turn at once by about so much, or more, where the detector took one side of a hand for
+# the other, as it does of hands that point at the camera or are seen from their edge. To leave such a frame
+# out costs as much as one turn by this: a beat turns a palm by 0.5 rad from frame to frame.
+_FLIP = np.radians(90.0)
+# Frames beyond which it is never cheaper to leave all out than to turn there and back by half a turn.
+_LONGEST_FLIP = int(2.0 * (np.pi / _FLIP) ** 2) + 1
+# [s] A hand that is lost for longer may be turned any way when it is found again.
+_FORGOTTEN = 0.4
 # Deviation of a bone's length as a share of it.
 _LENGTH_SHARE = 0.08
 # Deviation of the detector's guess of a depth as a share of the bone's length: of the palm's bones, which a
@@ -85,7 +93,8 @@ def lift_hand(hand: Points, *, scale: float, period: float, right: bool, forearm
     """Find the depth of a hand's points.
 
     Args:
-        hand: In the picture; frames in which a point is missing count as not seen.
+        hand: In the picture; frames in which a point is missing, or the palm flips and flips back, count as
+            not seen.
         scale: Metres for a unit of the clip.
         period: Between two frames [s].
         right: Whether it is a right hand.
@@ -102,6 +111,11 @@ def lift_hand(hand: Points, *, scale: float, period: float, right: bool, forearm
     places = places - places[:, WRIST, None]
     lengths = _bone_lengths(places, scale)
     guess = _guess(places, scale)
+    if guess is not None:
+        across = np.concatenate([guess[..., None], scale * places[..., 1:]], axis=2)
+        kept = without_flips(palm_axes(across)[..., 2], np.flatnonzero(seen) * np.float64(period))
+        seen[np.flatnonzero(seen)[~kept]] = False
+        places, guess = places[kept], guess[kept]
     if guess is None:
         expected, share = _expected(places, forearm[seen]) * lengths, np.full(_BONES, _NO_GUESS_SHARE)
     else:
@@ -119,8 +133,13 @@ def lift_hand(hand: Points, *, scale: float, period: float, right: bool, forearm
         lifted[:, second, 0] = lifted[:, first, 0] + np.clip(depths[:, bone], -lengths[bone], lengths[bone])
         spread[:, second] = np.hypot(spread[:, first], bone_sigma[:, bone])
     lifted = _with_rigid_palm(lifted)
-    points[seen] = lifted * (1.0 if right else _MIRROR)
-    sigma[seen] = np.sqrt((2.0 * _POINT_SIGMA**2 + spread**2) / 3.0)
+    kept = np.ones(len(lifted), dtype=np.bool_)
+    if guess is not None:
+        # What is smoothed into a hand that is seen from its edge may flip it once more.
+        kept = without_flips(palm_axes(lifted)[..., 2], np.flatnonzero(seen) * np.float64(period))
+    found = np.flatnonzero(seen)[kept]
+    points[found] = lifted[kept] * (1.0 if right else _MIRROR)
+    sigma[found] = np.sqrt((2.0 * _POINT_SIGMA**2 + spread[kept] ** 2) / 3.0)
     return LiftedHand(points, sigma)
 
 
@@ -154,6 +173,35 @@ def _guess(places: FloatArray, scale: float) -> FloatArray | None:
     if uneven[best] > (1.0 - _LEAST_TURN) * unevenness(0.0):
         return None
     return scale * float(_SCALES[best]) * depths
+
+
+def without_flips(palms: FloatArray, times: FloatArray) -> BoolArray:
+    """Which frames to keep so that the palm turns least and few are left out. Shape (n,).
+
+    Args:
+        palms: Ways the palm faces, unit vectors. Shape (n, 3).
+        times: [s]. Shape (n,).
+    """
+    count = len(palms)
+    if not count:
+        return np.zeros(0, dtype=np.bool_)
+    best, before = np.zeros(count), np.full(count, -1)
+    for frame in range(count):
+        best[frame] = frame  # all earlier ones left out
+        earlier = np.arange(max(frame - _LONGEST_FLIP, 0), frame)
+        if not len(earlier):
+            continue
+        turns = np.arccos(np.clip(palms[earlier] @ palms[frame], -1.0, 1.0))
+        turns[times[frame] - times[earlier] > _FORGOTTEN] = 0.0
+        costs = best[earlier] + (frame - 1 - earlier) + (turns / _FLIP) ** 2
+        if costs.min() < best[frame]:
+            best[frame], before[frame] = costs.min(), earlier[costs.argmin()]
+    kept = np.zeros(count, dtype=np.bool_)
+    at = int((best + np.arange(count)[::-1]).argmin())
+    while at >= 0:
+        kept[at] = True
+        at = int(before[at])
+    return kept
 
 
 def _bones(points: FloatArray) -> FloatArray:

@@ -16,7 +16,8 @@ from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.layouts.person_layout import BODY, HANDS, LEFT_HAND, RIGHT_HAND
 from teo_skeleton_retriever.lifting.clip import ELBOW, SHOULDER, SIDES, WRIST, Points, PoseClip
 from teo_skeleton_retriever.lifting.depth_smoothing import smooth_depth
-from teo_skeleton_retriever.lifting.hand_axes import palm_axes
+from teo_skeleton_retriever.lifting.hand_axes import MIDDLE, palm_axes
+from teo_skeleton_retriever.lifting.hands import without_flips
 from teo_skeleton_retriever.lifting.lifted_person import LiftedPerson, lift_clip
 
 BAG = Path(__file__).resolve().parents[4] / "bags" / "signer_d435"
@@ -167,6 +168,38 @@ def test_hands_end_their_arms_and_none_is_inside_the_trunk(lifted: LiftedPerson)
     before = (np.abs(wrists[:, 1]) < 0.12) & (wrists[:, 2] > -0.40) & (wrists[:, 2] < 0.05)
     assert before.any()
     assert (wrists[before, 0] > 0.05).all()
+
+
+def flipped(hand: Points, frames: Sequence[int]) -> Points:
+    """A hand of which the detector took the back for the palm: the fingers point as before."""
+    places = hand.places.copy()
+    for frame in frames:
+        wrist, middle = places[frame, 0], places[frame, [MIDDLE, MIDDLE + 4]].mean(axis=0)
+        axis = (middle - wrist) / np.linalg.norm(middle - wrist)
+        ways = places[frame] - wrist
+        places[frame] = wrist + 2.0 * (ways @ axis)[:, None] * axis - ways
+    return Points(places=places, confidence=hand.confidence)
+
+
+def test_frames_in_which_the_detector_takes_the_back_of_a_hand_for_its_palm_are_left_out(
+    truth: FloatArray,
+) -> None:
+    clip, wrong = picture(truth), (20, 21, 30, 41)
+    person = lift_clip(replace(clip, right_hand=flipped(clip.right_hand, wrong)))
+    lost = ~np.isfinite(person.positions[:, RIGHT_HAND]).all(axis=(1, 2))
+    assert set(wrong) <= set(np.flatnonzero(lost).tolist())
+    assert lost.sum() <= len(wrong) + 2
+    assert np.isfinite(person.positions[list(wrong), WRIST["right"]]).all()
+
+
+def test_a_palm_that_turns_over_for_good_is_believed() -> None:
+    angles = np.radians([0.0, 5.0, 0.0, 60.0, 120.0, 175.0, 180.0, 180.0, 175.0, 180.0])
+    palms = np.stack([np.cos(angles), np.sin(angles), np.zeros(len(angles))], axis=1)
+    times = np.arange(len(angles)) / 20.0
+    assert without_flips(palms, times).all()
+    at_once = palms[[0, 1, 2, 0, 1, 5, 6, 7, 8, 9]]
+    assert without_flips(at_once, times).all()
+    assert without_flips(palms[:0], times[:0]).shape == (0,)
 
 
 def hidden(points: Points, frames: slice, rows: Sequence[int] | range) -> Points:
