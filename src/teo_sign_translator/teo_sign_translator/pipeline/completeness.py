@@ -39,12 +39,14 @@ class CompletenessWords:
         goes_to: Word between that verb and the infinitive.
         courtesy: Words of a courtesy, in order; empty for none.
         courtesy_gloss: The gloss of all of them.
+        of_things: Verbs whose third person is nobody: a pointing gloss is not said for them.
     """
 
     goes: str
     goes_to: str
     courtesy: tuple[str, ...]
     courtesy_gloss: str
+    of_things: frozenset[str]
 
 
 @dataclass(frozen=True)
@@ -109,6 +111,7 @@ PUT_BACK_CONFIDENCE = 0.2
 _COURTESY_CONFIDENCE = 0.9
 
 _ANY = "*"
+_THIRD = (":3s", ":3p")
 # Tags of words that LSE signs last.
 _LAST = ("WH",)
 
@@ -226,7 +229,12 @@ class Completeness:
         if self.wordless is None:
             return []
         by_gloss, by_lemma = _places(words)
-        tags = [reading.tag for word in words for reading in _as_typed(word)]
+        tags = [
+            reading.tag
+            for word in words
+            for reading in _as_typed(word)
+            if reading.lemma not in self.words.of_things or not reading.tag.endswith(_THIRD)
+        ]
         free = {
             gloss
             for gloss, beginnings in self.wordless.items()

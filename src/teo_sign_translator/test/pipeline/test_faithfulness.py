@@ -52,6 +52,12 @@ def test_no_translation_repeats_or_outgrows_its_text(text: str) -> None:
         ("Ahora está acabada.", {"ÉL", "ELLA", "YO"}),
         ("actividades formativas complementarias", {"TÚ", "YO"}),
         ("Mi perro es my best friend", {"PASADO", "YO"}),
+        ("Hola, ¿cuánto cuesta?", {"USTED"}),
+        ("¿Cuánto valen?", {"USTEDES", "ELLOS"}),
+        ("¿Por qué está cerrado?", {"USTED"}),
+        ("¿Es cierto que te ofrecieron un trabajo?", {"USTED"}),
+        ("Sin cita, salvo en casos urgentes.", {"YO"}),
+        ("Sin falta las riego mañana.", {"FALTAR"}),
     ],
 )
 def test_nobody_is_named_whom_no_word_names(text: str, invented: set[str]) -> None:
