@@ -78,7 +78,6 @@ ORIGINS = {
     SignToken.ORIGIN_WORD_LIST: "word list",
     SignToken.ORIGIN_PAUSE: "",
     SignToken.ORIGIN_PARAPHRASE: "paraphrase",
-    SignToken.ORIGIN_DRAFT: "draft",
 }
 
 
