@@ -38,8 +38,9 @@ class _Gate(NamedTuple):
 # to be read; at a sixth of the pace a stroke of half a second lasts three, and reads as several.
 # And with consent: of a hand that is lost in half of the frames more is guessed than seen; at 90 deg the
 # palm faces the next cardinal direction, which is another sign's; 100 mm is from chin to eyes, so that a
-# touch is at no place near its own; 200 mm are a region (face, chest, belly); in half of the stroke the wrong place is the
-# sign's place; at a tenth of the pace a mere touch of 0.3 s lasts 3 s, as long as the longest signs.
+# touch is at no place near its own; 200 mm are a region (face, chest, belly); in half of the stroke the
+# wrong place is the sign's place; at a tenth of the pace a mere touch of 0.3 s lasts 3 s, as long as the
+# longest signs.
 _GATES = (
     _Gate(
         "much_lost",
