@@ -177,6 +177,7 @@ class SpecialWords:
         asked_reason: A word that is two words, those of `reason`, at the beginning of a question; or empty.
         reason: See `asked_reason`.
         introducing: Lemmas behind which a name stands ("me llamo Rosa").
+        inside_names: Words before a surname that are part of it ("de la Torre").
         subject_tags: Ends of the tags of verbs that a name without an article may be the subject of.
         sounds: By a pattern of what is typed by its sound, the spellings that sound so (`k`: `c qu`), "" for
             a letter that is not written.
@@ -190,6 +191,7 @@ class SpecialWords:
     asked_reason: str
     reason: tuple[str, ...]
     introducing: frozenset[str]
+    inside_names: frozenset[str]
     subject_tags: tuple[str, ...]
     sounds: dict[str, str]
     superlative: re.Pattern[str]

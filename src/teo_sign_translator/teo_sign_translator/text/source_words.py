@@ -99,8 +99,7 @@ _ARTICLE = re.compile("(?:DET:(?:in)?def:(?!ms)|WH:)([fm])([sp])")
 #: From so many words on, a capital on each of them is a habit of the writer's, not a row of names.
 _TITLE_CASE_WORDS = 5
 
-# Tags of words inside a name, and how many of them stand together ("de la").
-_INSIDE_NAMES = ("PREP", "DET:def")
+# How many words stand together inside a name ("de la").
 _MOST_INSIDE_NAMES = 2
 
 
@@ -172,7 +171,9 @@ def words_of_clauses(clauses: Sequence[Clause], morphology: Morphology) -> tuple
         words[place] = replace(words[place], readings=readings)
     words = _with_degrees(words, special, morphology)
     words = _with_phrases(words, morphology) if morphology.phrases else words
-    return tuple(_told_by_neighbours(_in_their_clause(_with_whole_names(words), morphology), morphology))
+    return tuple(
+        _told_by_neighbours(_in_their_clause(_with_whole_names(words, special), morphology), morphology)
+    )
 
 
 def _with_degrees(
@@ -430,14 +431,14 @@ def _without_verbs(readings: tuple[Reading, ...], *, prepositions: bool) -> tupl
     return tuple(kept) or readings
 
 
-def _with_whole_names(words: Sequence[SourceWord]) -> list[SourceWord]:
+def _with_whole_names(words: Sequence[SourceWord], special: SpecialWords) -> list[SourceWord]:
     """The words, those inside a person's name read as names: "de la" of "María de la Torre"."""
     result = list(words)
     for place, word in enumerate(result):
         if not is_persons_name(word.readings[0]):
             continue
         last = place + 1
-        while last < len(result) and result[last].readings[0].tag.startswith(_INSIDE_NAMES):
+        while last < len(result) and result[last].form in special.inside_names:
             last += 1
         surname = last < len(result) and place + 1 < last <= place + 1 + _MOST_INSIDE_NAMES
         if surname and result[last].capital and _may_be_surname(result[last]):

@@ -103,3 +103,8 @@ def test_a_name_is_one_by_what_stands_beside_it(sentence: str, word: str) -> Non
 )
 def test_a_common_word_that_nothing_makes_a_name_is_none(sentence: str, word: str) -> None:
     assert not _may_be_name(_found(sentence, word))
+
+
+def test_whom_something_is_done_to_is_no_part_of_the_name_before() -> None:
+    words = source_words("Pago la ropa de Samuel a María.", morphology())
+    assert [word.readings[0].tag for word in words if word.form == "a"] == ["PREP"]
