@@ -64,23 +64,23 @@ def _introduces(readings: Sequence[Reading], words: SpecialWords) -> bool:
 
 
 def _opening_name(
-    readings: Sequence[Reading], following: Sequence[Reading], words: SpecialWords
+    readings: Sequence[Reading], following: Sequence[SourceWord], words: SpecialWords
 ) -> tuple[Reading, ...]:
     """Readings of a capitalised word that begins a sentence: a given name first, if it is a subject.
 
-    A common noun that is a subject has an article (`La rosa huele`); a name has none (`Rosa viene mañana`).
+    A common noun that is a subject has an article (`La rosa huele`); a name has none (`Rosa viene mañana`,
+    `Rosa y Pablo`).
 
     Args:
         readings: Of the word.
-        following: Of the word behind it; none at the end.
+        following: The words behind it.
         words: Of the language.
     """
     given = tuple(reading for reading in readings if reading.tag in _GIVEN)
+    behind = [word.readings[0] for word in following[:2]]
     says = (
-        bool(following)
-        and following[0].tag.startswith("V:")
-        and following[0].tag.endswith(words.subject_tags)
-    )
+        bool(behind) and behind[0].tag.startswith("V:") and behind[0].tag.endswith(words.subject_tags)
+    ) or (len(behind) > 1 and behind[0].tag == "CONJ" and is_persons_name(behind[1]))
     others = tuple(reading for reading in readings if not is_persons_name(reading))
     if given and says:
         return (*given, *others)
@@ -166,8 +166,7 @@ def words_of_clauses(clauses: Sequence[Clause], morphology: Morphology) -> tuple
             words.append(SourceWord(clause.end, clause.end, False, _MARKS[clause.end]))
         begins = clause.closes
     for place in openings:
-        following = words[place + 1].readings if place + 1 < len(words) else ()
-        readings = _opening_name(_all_readings(words[place], morphology), following, special)
+        readings = _opening_name(_all_readings(words[place], morphology), words[place + 1 :], special)
         words[place] = replace(words[place], readings=readings)
     words = _with_degrees(words, special, morphology)
     words = _with_phrases(words, morphology) if morphology.phrases else words
@@ -300,6 +299,8 @@ def _told_by_neighbours(words: list[SourceWord], morphology: Morphology) -> list
             words[place] = word = replace(word, readings=_does(word, following, told.copulas))
         if following.form in told.amounts.get(word.form, "").split():
             words[place] = replace(word, readings=_without_verbs(word.readings, prepositions=False))
+    for place in range(len(words) - 3):
+        words[place] = _counting(words[place : place + 4], morphology)
     if len(words) > 1 and words[1].is_mark:
         words[0] = replace(words[0], readings=_as_order(words[0].readings))
     behind_copula = False
@@ -372,6 +373,15 @@ def _agrees(reading: Reading, gender: str, number: str) -> bool:
     """Whether a noun or adjective may stand behind an article; any other word may."""
     kind, _, form = reading.tag.rpartition(":")
     return kind not in ("N", "A") or (form[:1] in (gender, "c") and form[1:] in (number, "n"))
+
+
+def _counting(words: Sequence[SourceWord], morphology: Morphology) -> SourceWord:
+    """The first of four words, a number alone if a half is counted with it ("un litro y medio")."""
+    numbers = TextRules.load(morphology.folder).numbers
+    number = tuple(reading for reading in words[0].readings if reading.tag == "NUM")
+    half = any(reading.lemma in numbers.fractions[:1] for reading in words[3].readings)
+    counts = number and words[1].readings[0].tag.startswith("N:") and words[2].form == numbers.joiner
+    return replace(words[0], readings=number) if counts and half else words[0]
 
 
 def _does(word: SourceWord, following: SourceWord, copulas: Collection[str]) -> tuple[Reading, ...]:

@@ -105,6 +105,11 @@ def test_a_common_word_that_nothing_makes_a_name_is_none(sentence: str, word: st
     assert not _may_be_name(_found(sentence, word))
 
 
+def test_a_name_beside_a_name_is_one_at_the_beginning_too() -> None:
+    assert source_words("Rosa y Pablo se casan.", morphology())[0].readings[0].tag == "NAME:f"
+    assert source_words("Rosa y azul, por favor.", morphology())[0].readings[0].tag != "NAME:f"
+
+
 def test_whom_something_is_done_to_is_no_part_of_the_name_before() -> None:
     words = source_words("Pago la ropa de Samuel a María.", morphology())
     assert [word.readings[0].tag for word in words if word.form == "a"] == ["PREP"]

@@ -153,6 +153,7 @@ def test_no_word_of_the_lexicon_is_taken_for_another_that_sounds_so() -> None:
         ("¿cuánto ganas?", "ganas", "N:"),
         ("se lima las uñas", "lima", "N:"),
         ("así que nada de fútbol", "nada", "V:"),
+        ("lleva un litro y medio de nata", "un", "DET"),
     ],
 )
 def test_a_neighbour_rules_out_what_a_word_cannot_be(sentence: str, word: str, impossible: str) -> None:
