@@ -122,7 +122,6 @@ def _sampled(sign: Sign) -> RobotMotion:
         joints=sign.joints,
         positions=positions,
         place_error=unknown,
-        aside_error=unknown,
         contact=unknown,
         same_zone=unknown,
         same_zone_of_middle=unknown,

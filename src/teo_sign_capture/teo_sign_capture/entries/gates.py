@@ -32,15 +32,14 @@ class _Gate(NamedTuple):
 
 # The most of each figure, unasked: a fifth of the frames filled in is a beat of a repeated sign that nobody
 # saw; 45 deg is half-way to the palm's next cardinal direction, at which signs differ; 50 mm is from chin
-# to nose; 100 mm to the side, up or down is from chin to eyes, while whom is signed to hardly sees how far
-# before the body a hand is (TEO's elbow keeps one that belongs beside the head up to 270 mm before its
-# place); of a sign whose major place is wrong in a tenth of the stroke the wrong place is held long enough
-# to be read; at a sixth of the pace a stroke of half a second lasts three, and reads as several.
+# to nose; TEO's elbow keeps a hand that belongs beside the head 200 mm off, which is as high as a region
+# (face, chest, belly) is; of a sign whose major place is wrong in a tenth of the stroke the wrong
+# place is held long enough to be read; at a sixth of the pace a stroke of half a second lasts three, and
+# reads as several.
 # And with consent: of a hand that is lost in half of the frames more is guessed than seen; at 90 deg the
 # palm faces the next cardinal direction, which is another sign's; 100 mm is from chin to eyes, so that a
-# touch is at no place near its own; 200 mm are a region (face, chest, belly); in half of the stroke the
-# wrong place is the sign's place; at a tenth of the pace a mere touch of 0.3 s lasts 3 s, as long as the
-# longest signs.
+# touch is at no place near its own; 400 mm are two regions; in half of the stroke the wrong place is the
+# sign's place; at a tenth of the pace a mere touch of 0.3 s lasts 3 s, as long as the longest signs.
 _GATES = (
     _Gate(
         "much_lost",
@@ -72,11 +71,11 @@ _GATES = (
     ),
     _Gate(
         "place_off",
-        "aside_error_p95_mm",
-        100.0,
-        200.0,
+        "place_error_p95_mm",
+        210.0,
+        400.0,
         " mm",
-        "a hand's error of place, as one sees it from before,",
+        "a hand's error of place",
         "show it farther before the body and nearer to the middle, where the robot's arms reach",
     ),
     _Gate(

@@ -120,7 +120,6 @@ class RobotMotion:
         joints: The m joints that take part: arm and hand of each side that signs; head, trunk if they move.
         positions: Within the limits, clear of the robot's own body [rad]. Shape (T, m).
         place_error: Distance of the hand from where the person's hand belongs on TEO [m].
-        aside_error: What of it whom is signed to sees: across, to the side and up or down [m].
         contact: How much the person's hand is on the body, 0 to 1.
         palm_error: Angle between the ways the palms face [rad].
         finger_error: Angle between the ways from wrist to knuckles [rad].
@@ -137,7 +136,6 @@ class RobotMotion:
     joints: tuple[str, ...]
     positions: Array
     place_error: Array
-    aside_error: Array
     contact: Array
     palm_error: Array
     finger_error: Array
@@ -195,10 +193,8 @@ def _hand_figures(free: FreeMotion, signer: SignerMotion, arms: Array) -> dict[s
     for side, wanted in free.goals.items():
         poses = free.poses(side, arms)
         hand = poses.points(wanted.local)
-        away = hand - wanted.place
         figures: dict[str, Array | NDArray[np.bool_]] = {
-            "place_error": np.linalg.norm(away, axis=1),
-            "aside_error": np.linalg.norm(away[:, 1:], axis=1),
+            "place_error": np.linalg.norm(hand - wanted.place, axis=1),
             "palm_error": angles_between(poses.rotation[:, :, 2], wanted.palm),
             "finger_error": angles_between(poses.rotation[:, :, 0], wanted.fingers),
             "flexion_error": free.hands[side].error,

@@ -40,7 +40,6 @@ def motion(
         joints=joints,
         positions=positions,
         place_error=errors,
-        aside_error=errors,
         contact=errors,
         same_zone=errors,
         same_zone_of_middle=errors,
