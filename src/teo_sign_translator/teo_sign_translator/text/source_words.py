@@ -294,9 +294,9 @@ def _told_by_neighbours(words: list[SourceWord], morphology: Morphology) -> list
         if following.readings[0].tag.startswith("V:inf"):
             written = told.infinitive.get(word.form, written)
         if written:
-            words[place] = replace(word, form=written, readings=morphology.readings(written))
-        if following.form not in told.amounts and _does(word, following, told.copulas):
-            words[place] = word = replace(word, readings=_does(word, following, told.copulas))
+            word = words[place] = replace(word, form=written, readings=morphology.readings(written))
+        if following.form not in told.amounts:
+            word = words[place] = replace(word, readings=_does(word, following, told.copulas))
         if following.form in told.amounts.get(word.form, "").split():
             words[place] = replace(word, readings=_without_verbs(word.readings, prepositions=False))
     for place in range(len(words) - 3):
@@ -385,7 +385,7 @@ def _counting(words: Sequence[SourceWord], morphology: Morphology) -> SourceWord
 
 
 def _does(word: SourceWord, following: SourceWord, copulas: Collection[str]) -> tuple[Reading, ...]:
-    """The readings of a word to which the one behind leaves no choice; none if there is one.
+    """The readings of a word that the one behind leaves it.
 
     A reflexive pronoun before a verb is no verb typed without its accent ("se lima las uñas"), and a form of
     two verbs is the copula's before an adjective ("sé amable", "fue feliz").
@@ -394,9 +394,9 @@ def _does(word: SourceWord, following: SourceWord, copulas: Collection[str]) -> 
     exact = tuple(each for each in word.readings if each.exact)
     if exact and all(each.tag.startswith("PRON:refl") for each in exact):
         acts = any(_PERSONAL.fullmatch(tag) and tag[-2:-1] == "3" for tag in tags)
-        return exact if acts else ()
+        return exact if acts else word.readings
     adjective = bool(tags) and all(tag.startswith("A:") for tag in tags)
-    return tuple(each for each in exact if adjective and each.lemma in copulas)
+    return tuple(each for each in exact if adjective and each.lemma in copulas) or word.readings
 
 
 def _as_order(readings: tuple[Reading, ...]) -> tuple[Reading, ...]:
