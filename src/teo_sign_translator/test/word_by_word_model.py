@@ -16,7 +16,7 @@ from teo_sign_translator.pipeline.pointer_back_end import PointerBackEnd, read_g
 from teo_sign_translator.pipeline.translator import Translator
 from teo_sign_translator.pointer import Hypothesis, OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
-from teo_sign_translator.text.source_words import SourceWord
+from teo_sign_translator.text.source_word import SourceWord
 
 
 class WordByWordModel:

@@ -18,7 +18,7 @@ from teo_sign_translator.pointer import Hypothesis
 from teo_sign_translator.pointer.array_model import ArrayModel
 from teo_sign_translator.pointer.config import NetworkConfig
 from teo_sign_translator.pointer.decoding import SentenceModel
-from teo_sign_translator.text.source_words import SourceWord
+from teo_sign_translator.text.source_word import SourceWord
 
 NOUNS = ("pan", "vaso", "libro", "coche", "gato", "perro")
 VERBS = ("com", "beb", "le", "vend")

@@ -17,7 +17,7 @@ from teo_sign_translator.data_files import data_file, invalid_line, read_rows
 from teo_sign_translator.morphology import Reading
 from teo_sign_translator.morphology.lexicon import nouns
 from teo_sign_translator.pipeline.completeness import PersonWords, PipelineWords
-from teo_sign_translator.text.source_words import SourceWord
+from teo_sign_translator.text.source_word import SourceWord
 
 _DATIVE, _PERSON, _BODY = "dative", "person", "body"
 _NONE = "-"

@@ -25,7 +25,7 @@ from teo_sign_translator.morphology import TAGS, Reading
 from teo_sign_translator.pointer import Hypothesis, OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
 from teo_sign_translator.text.rules import TextRules
-from teo_sign_translator.text.source_words import SourceWord
+from teo_sign_translator.text.source_word import SourceWord
 
 _FILE = "pipeline.yaml"
 

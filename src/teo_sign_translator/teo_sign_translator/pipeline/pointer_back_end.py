@@ -28,7 +28,8 @@ from teo_sign_translator.pointer.vocabulary import copied_gloss
 from teo_sign_translator.text.cleaning import clean
 from teo_sign_translator.text.reading import Clause, SentenceType, read, sentence_type
 from teo_sign_translator.text.rules import GlossNames, TextRules
-from teo_sign_translator.text.source_words import SourceWord, is_persons_name, words_of_clauses
+from teo_sign_translator.text.source_word import SourceWord
+from teo_sign_translator.text.source_words import is_persons_name, words_of_clauses
 
 #: Translations that the model weighs against each other: a second one is there where the first loses a word;
 #: four find no more right ones among 900 held-out sentences than two.

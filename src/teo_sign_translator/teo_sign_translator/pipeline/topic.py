@@ -15,7 +15,7 @@ from teo_sign_translator.morphology import gloss_name
 from teo_sign_translator.morphology.lexicon import nouns
 from teo_sign_translator.pipeline.completeness import PipelineWords
 from teo_sign_translator.pointer import OutputGloss
-from teo_sign_translator.text.source_words import SourceWord
+from teo_sign_translator.text.source_word import SourceWord
 
 #: Classes of nouns that may do what a verb says, so that they could be taken for its subject.
 _DOERS = frozenset({"person", "family", "profession", "animal", "group"})

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from teo_sign_translator.pointer.config import Cell, NetworkConfig, check_weights, weight_shapes
 from teo_sign_translator.pointer.vocabulary import BLANK, READINGS, ROOT, Vocabulary, WordFeatures, tag_parts
-from teo_sign_translator.text.source_words import SourceWord
+from teo_sign_translator.text.source_word import SourceWord
 
 Array = NDArray[np.float32]
 

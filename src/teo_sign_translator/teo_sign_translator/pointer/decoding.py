@@ -21,7 +21,7 @@ from teo_sign_translator.pointer.array_model import Array, ArrayModel, Ints, Mem
 from teo_sign_translator.pointer.config import NetworkConfig
 from teo_sign_translator.pointer.ensemble import Ensemble
 from teo_sign_translator.pointer.vocabulary import END_INDEX, READINGS, START_INDEX, Vocabulary
-from teo_sign_translator.text.source_words import SourceWord
+from teo_sign_translator.text.source_word import SourceWord
 
 #: Blanks behind the words in the equal-length layout: glosses that no word says (YO, PASADO, MOTIVO ...).
 SPARE = 4

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from teo_sign_translator.pointer.array_model import Array, ArrayModel, Ints, Memory, Step
 from teo_sign_translator.pointer.config import NetworkConfig
 from teo_sign_translator.pointer.vocabulary import Vocabulary
-from teo_sign_translator.text.source_words import SourceWord
+from teo_sign_translator.text.source_word import SourceWord
 
 
 def member_weights(

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from teo_common.text_folding import fold
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import MAX_READINGS, Reading, gloss_name
-from teo_sign_translator.text.source_words import SourceWord
+from teo_sign_translator.text.source_word import SourceWord
 
 #: Readings of a word that a model looks at: all that there are.
 READINGS = MAX_READINGS

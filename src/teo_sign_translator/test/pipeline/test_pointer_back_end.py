@@ -15,7 +15,8 @@ from teo_sign_translator.pipeline.pointer_back_end import MOST_WORDS, divided
 from teo_sign_translator.pipeline.translator import MAX_SENTENCE_TOKENS, Translator
 from teo_sign_translator.pointer import Hypothesis, OutputGloss
 from teo_sign_translator.text.reading import SentenceType
-from teo_sign_translator.text.source_words import SourceWord, source_words
+from teo_sign_translator.text.source_word import SourceWord
+from teo_sign_translator.text.source_words import source_words
 
 
 @pytest.fixture(scope="module")

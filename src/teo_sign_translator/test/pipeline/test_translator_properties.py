@@ -24,7 +24,7 @@ from teo_sign_translator.pipeline.translator import MAX_SENTENCE_TOKENS, Transla
 from teo_sign_translator.pointer import Hypothesis, OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
 from teo_sign_translator.text.cleaning import clean
-from teo_sign_translator.text.source_words import SourceWord
+from teo_sign_translator.text.source_word import SourceWord
 
 
 class WildModel:

@@ -15,7 +15,8 @@ from teo_sign_translator.model_files import available_models, models_directory, 
 from teo_sign_translator.pointer import load_sentence_model
 from teo_sign_translator.pointer.config import POINTER, NetworkConfig
 from teo_sign_translator.pointer.decoding import SentenceModel
-from teo_sign_translator.text.source_words import SourceWord, source_words
+from teo_sign_translator.text.source_word import SourceWord
+from teo_sign_translator.text.source_words import source_words
 
 
 def read(sentence: str) -> tuple[SourceWord, ...]:

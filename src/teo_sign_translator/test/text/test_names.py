@@ -8,7 +8,8 @@ import pytest
 from loaded import morphology
 
 from teo_sign_translator.morphology import lexicon
-from teo_sign_translator.text.source_words import PEOPLE, SourceWord, source_words
+from teo_sign_translator.text.source_word import SourceWord
+from teo_sign_translator.text.source_words import PEOPLE, source_words
 
 #: Where a capital says nothing; `{}` is the word, with a capital.
 POSITIONS = (

@@ -12,7 +12,8 @@ from loaded import morphology
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology.lexicon import adjectives, nouns
 from teo_sign_translator.text.rules import TextRules
-from teo_sign_translator.text.source_words import SourceWord, source_words
+from teo_sign_translator.text.source_word import SourceWord
+from teo_sign_translator.text.source_words import source_words
 
 
 def _read(sentence: str) -> tuple[SourceWord, ...]:

@@ -21,7 +21,8 @@ from teo_sign_translator.data_files import data_file, invalid_line, read_rows
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology, gloss_name
 from teo_sign_translator.pointer.decoding import SentenceModel
-from teo_sign_translator.text.source_words import SourceWord, source_words
+from teo_sign_translator.text.source_word import SourceWord
+from teo_sign_translator.text.source_words import source_words
 
 #: Reads a sentence as words: `source_words` with a morphology.
 Reader = Callable[[str], Sequence[SourceWord]]

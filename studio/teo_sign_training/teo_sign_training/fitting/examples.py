@@ -18,7 +18,7 @@ from teo_sign_training.corpus import Pair
 from teo_sign_training.corpus.paper_pairs import Reader
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.pointer.vocabulary import READINGS, copied_gloss
-from teo_sign_translator.text.source_words import SourceWord
+from teo_sign_translator.text.source_word import SourceWord
 
 Ints = NDArray[np.int64]
 

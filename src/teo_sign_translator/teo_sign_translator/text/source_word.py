@@ -1,0 +1,36 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""A word of a sentence, and what it may be."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from teo_sign_translator.morphology import Reading
+
+
+@dataclass(frozen=True, slots=True)
+class SourceWord:
+    """A word or mark of a sentence.
+
+    Attributes:
+        text: As typed. Words that one short form stands for have the same text (`EE. UU.`, `xfa`).
+        form: What it says, in lower case with the accents that were typed: a short form or symbol in full
+            (`sr.` is `señor`), a number in digits, also one of several words (`31`, `3,5`, `15:30`) or a
+            Roman one (`21`), a word typed as it is drawn out or sounds as it is written (`holaaaa` is `hola`,
+            `kasa` is `casa`). A mark is one of `,` (any mark that is a short pause), `.`, `?`, `!`; opening
+            marks are left out.
+        capital: Whether it was typed with a capital that neither the beginning of a sentence, a mark before
+            it nor capitals all over explain.
+        readings: What it may be, most likely first; one to four. A mark's only one has the tag MARK.
+    """
+
+    text: str
+    form: str
+    capital: bool
+    readings: tuple[Reading, ...]
+
+    @property
+    def is_mark(self) -> bool:
+        """Whether it is punctuation."""
+        return self.readings[0].tag == "MARK"
