@@ -165,8 +165,8 @@ def test_a_robot_that_is_rearmed_while_it_brakes_is_armed_when_it_is_at_rest(
 def test_two_pages_see_one_robot_and_closing_one_changes_nothing(new_page: NewPage) -> None:
     one, other = new_page(), new_page(width=390, height=844)
     wait_until_ready(one)
-    # Longer than two pages need for all of this on a loaded machine: over a minute at half the speed.
-    text = "Me llamo Bartolomé Maximiliano Wenceslao."
+    # Over a minute: longer than two pages need for what follows on a loaded machine. The stop ends it.
+    text = "Me llamo Bartolomé Maximiliano Wenceslao Nabucodonosor Hermenegildo."
     sign(one, text)
     expect(other.locator(".token.lit")).to_be_visible()
     assert other.evaluate("document.documentElement.scrollWidth") <= 390  # whatever is signed
