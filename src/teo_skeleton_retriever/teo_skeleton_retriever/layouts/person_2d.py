@@ -29,6 +29,8 @@ class Person2D:
         left_hand: Likewise, the person's own left. Shape (21, 3) or (0, 3).
         right_hand: Likewise.
         face: Likewise. Shape (70, 3) or (0, 3).
+        body_depth: How far the detector takes each of the body's points to be behind the hips [px], in about
+            the scale of the image. Shape (25,), or None.
         left_hand_world: The hand's shape as the detector imagines it: x, y, z [m] along the camera's axes,
             from an origin in the hand; its size is that of a usual hand. Shape (21, 3), or None.
         right_hand_world: Likewise.
@@ -38,6 +40,7 @@ class Person2D:
     left_hand: FloatArray = field(default_factory=_absent)
     right_hand: FloatArray = field(default_factory=_absent)
     face: FloatArray = field(default_factory=_absent)
+    body_depth: FloatArray | None = None
     left_hand_world: FloatArray | None = None
     right_hand_world: FloatArray | None = None
 
@@ -59,12 +62,17 @@ class Person2D:
             if not np.isfinite(array).all():
                 raise RetrieverError("not_finite", f"{name}: expected finite numbers, got NaN or infinity")
             object.__setattr__(self, name, frozen(array))
-        for name in ("left_hand_world", "right_hand_world"):
+        imagined = {
+            "body_depth": (len(BODY_25),),
+            "left_hand_world": (len(HAND_21), 3),
+            "right_hand_world": (len(HAND_21), 3),
+        }
+        for name, shape in imagined.items():
             if getattr(self, name) is None:
                 continue
             world = np.asarray(getattr(self, name), dtype=np.float64)
-            if world.shape != (len(HAND_21), 3):
-                raise RetrieverError("wrong_shape", f"{name}: expected (21, 3), got {world.shape}")
+            if world.shape != shape:
+                raise RetrieverError("wrong_shape", f"{name}: expected {shape}, got {world.shape}")
             if not np.isfinite(world).all():
                 raise RetrieverError("not_finite", f"{name}: expected finite numbers, got NaN or infinity")
             object.__setattr__(self, name, frozen(world))

@@ -57,14 +57,15 @@ class BodyMeasure:
     seen: tuple[bool, bool]
 
 
-def measure_body(body: Points) -> BodyMeasure:
+def measure_body(body: Points, turn: FloatArray) -> BodyMeasure:
     """Measure a person whose shoulders are seen.
 
     Args:
         body: BODY_25 in the picture.
+        turn: How far the trunk is turned aside [rad]. Shape (T,).
     """
     both = [(SHOULDER["left"], SHOULDER["right"])]
-    shoulders = float(np.percentile(_lengths(body, both), _SHOULDERS_PERCENTILE))
+    shoulders = float(np.percentile(_lengths(body, both, turn), _SHOULDERS_PERCENTILE))
     limbs, seen = [], []
     for usual, start, end in ((_UPPER_ARM, SHOULDER, ELBOW), (_FOREARM, ELBOW, WRIST)):
         expected = usual / _SHOULDERS * shoulders
@@ -80,14 +81,18 @@ def measure_body(body: Points) -> BodyMeasure:
     )
 
 
-def _lengths(body: Points, pairs: list[tuple[int, int]]) -> FloatArray:
-    """Lengths across the view in all frames in which both ends are sure, or, if there is none, seen."""
+def _lengths(body: Points, pairs: list[tuple[int, int]], turn: FloatArray | None = None) -> FloatArray:
+    """Lengths across the view in all frames in which both ends are sure, or, if there is none, seen.
+
+    Of what lies across a trunk that is turned aside by `turn`, shape (T,), the true length.
+    """
+    shown = np.ones(len(body.places)) if turn is None else np.cos(turn)
     found = []
     for least in (_SURE, 0.0):
         for first, second in pairs:
             sure = (body.confidence[:, [first, second]] > least).all(axis=1)
             away = body.places[sure, first, 1:] - body.places[sure, second, 1:]
-            found.append(np.linalg.norm(away, axis=1))
+            found.append(np.hypot(away[:, 0] / shown[sure], away[:, 1]))
         if any(len(lengths) for lengths in found):
             break
     return np.concatenate(found)
@@ -136,7 +141,7 @@ _LENGTH_SIGMA = (0.07, 0.12)
 
 
 class LiftedArm(NamedTuple):
-    """How far elbow and wrist are in front of the shoulders."""
+    """How far elbow and wrist are in front of the middle of the shoulders."""
 
     elbow: FloatArray
     """[m] Shape (T,)."""
@@ -157,23 +162,25 @@ def lift_arm(
     guess: FloatArray,
     hand: FloatArray,
     measure: BodyMeasure,
+    turn: FloatArray,
     period: float,
 ) -> LiftedArm:
     """Find the depth of one arm.
 
     Args:
-        shoulder: Left of the middle of the shoulders and up from it [m]. Shape (T, 2), as elbow and wrist.
-        elbow: NaN where not seen.
+        shoulder: In front of the middle of the shoulders, left of it and up from it [m]. Shape (T, 3).
+        elbow: Left and up likewise; NaN where not seen. Shape (T, 2).
         wrist: Likewise.
         confidence: Of elbow and wrist, 0 to 1. Shape (T, 2).
         guess: What the detector takes the wrist to be in front of the elbow, in any unit; NaN if
             unknown. Shape (T,).
         hand: Direction from wrist to knuckles, forward, left, up; NaN if unknown. Shape (T, 3).
         measure: Lengths of the arm.
+        turn: How far the trunk is turned to the person's own right [rad]. Shape (T,).
         period: Between two frames [s].
     """
     lengths = np.array([measure.upper_arm, measure.forearm])
-    across = np.stack([elbow - shoulder, wrist - elbow], axis=1)
+    across = np.stack([elbow - shoulder[:, 1:], wrist - elbow], axis=1)
     seen = np.linalg.norm(across, axis=2)
     depth = np.sqrt(np.maximum(lengths**2 - seen**2, 0.0))
     point = _POINT_SIGMA[1] + (_POINT_SIGMA[0] - _POINT_SIGMA[1]) * np.sqrt(confidence)
@@ -183,33 +190,56 @@ def lift_arm(
     error = np.sqrt((np.minimum(seen, lengths) * point) ** 2 + (lengths**2 * shares) ** 2)
     sigma = error / np.maximum(depth, np.sqrt(error))
     candidates = depth[:, None] * _SIGNS  # (T, 4, 2)
-    costs = _costs(candidates, across, shoulder, guess, hand, lengths)
-    places = np.full_like(depth, np.nan)  # in front of the shoulders: elbow, wrist
+    trunk = _Trunk(turn)
+    costs = _costs(candidates, across, shoulder, guess, hand, lengths, trunk)
+    places = np.full_like(depth, np.nan)  # in front of the shoulders' middle: elbow, wrist
     known = np.isfinite(costs).all(axis=1)
     if known.any():
-        reached = np.cumsum(candidates[known], axis=2)
+        reached = np.cumsum(candidates[known], axis=2) + shoulder[known, :1, None]
         path = cheapest_path(costs[known], reached, 1.0 / (_JITTER + _SPEED * period) ** 2)
         places[known] = reached[np.arange(len(path)), path]
     sigma[:, 1] = np.hypot(sigma[:, 0], sigma[:, 1])
-    places[:, 1], sigma[:, 1] = _with_usual(places[:, 1], sigma[:, 1], across, lengths)
-    places[:, 1] = np.maximum(places[:, 1], _least_depth(wrist))
+    usual, deviation = _usual_depth(across, lengths)
+    places[:, 1], sigma[:, 1] = _with_usual(
+        places[:, 1], sigma[:, 1], trunk.depth(usual, wrist[:, 0]), deviation / np.cos(turn)
+    )
+    least = _least_depth(trunk.aside(places[:, 1], wrist[:, 0]), wrist[:, 1])
+    places[:, 1] = np.maximum(places[:, 1], trunk.depth(least, wrist[:, 0]))
     places = smooth_depth(places, sigma, period=period, acceleration=_ACCELERATION)
     return LiftedArm(
-        elbow=np.clip(places[:, 0], -lengths[0], lengths[0]),
+        elbow=shoulder[:, 0] + np.clip(places[:, 0] - shoulder[:, 0], -lengths[0], lengths[0]),
         wrist=places[:, 1],
         elbow_sigma=np.column_stack([point[:, 0], sigma[:, 0]]),
         wrist_sigma=np.column_stack([point[:, 1], sigma[:, 1]]),
     )
 
 
+class _Trunk:
+    """Places before a trunk that is turned aside, and before the camera. Shapes (T,) or (T, n)."""
+
+    def __init__(self, turn: FloatArray) -> None:
+        self._cosine, self._sine = np.cos(turn), np.sin(turn)
+
+    def forward(self, depth: FloatArray, left: FloatArray) -> FloatArray:
+        """How far a place is before the trunk's plane, by its depth and what is seen [m]."""
+        return np.asarray((depth.T * self._cosine - left.T * self._sine).T)
+
+    def aside(self, depth: FloatArray, left: FloatArray) -> FloatArray:
+        """How far it is to the left of the trunk's middle [m]."""
+        return np.asarray((depth.T * self._sine + left.T * self._cosine).T)
+
+    def depth(self, forward: FloatArray, left: FloatArray) -> FloatArray:
+        """The depth of what is so far before the trunk [m]."""
+        return np.asarray(((forward.T + left.T * self._sine) / self._cosine).T)
+
+
 def _with_usual(
-    depths: FloatArray, sigma: FloatArray, across: FloatArray, lengths: FloatArray
+    depths: FloatArray, sigma: FloatArray, usual: FloatArray, deviation: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Depths of wrists and what is usual, each by how sure it is; the usual where no depth is known.
 
     What is measured says little where a limb lies across the view or an elbow is guessed.
     """
-    usual, deviation = _usual_depth(across, lengths)
     weight = np.where(np.isfinite(depths), 1.0 / sigma**2, 0.0)
     total = weight + 1.0 / deviation**2
     mean = (weight * np.where(weight > 0.0, depths, 0.0) + usual / deviation**2) / total
@@ -223,12 +253,16 @@ def _costs(
     guess: FloatArray,
     hand: FloatArray,
     lengths: FloatArray,
+    trunk: _Trunk,
 ) -> FloatArray:
     """How unlikely each pair of signs is in each frame, by itself. Shape (T, 4)."""
-    elbow, wrist = candidates[..., 0], candidates.sum(axis=2)
-    place = shoulder + across.sum(axis=1)
+    depths = np.cumsum(candidates, axis=2) + shoulder[:, :1, None]
+    seen = np.cumsum(across, axis=1) + shoulder[:, None, 1:]
+    left, height = (np.broadcast_to(seen[:, None, :, axis], depths.shape) for axis in (0, 1))
+    elbow, wrist = (trunk.forward(depths[..., at], left[..., at]) for at in (0, 1))
+    least = _least_depth(trunk.aside(depths[..., 1], left[..., 1]), height[..., 1])
     behind = np.minimum(elbow - _ELBOW_BACK, 0.0) / _INSIDE
-    inside = np.minimum(wrist - _least_depth(place)[:, None], 0.0) / _INSIDE
+    inside = np.minimum(wrist - least, 0.0) / _INSIDE
     limbs = np.concatenate(
         [candidates[..., None], np.broadcast_to(across[:, None], (*candidates.shape, 2))], axis=3
     )
@@ -253,10 +287,10 @@ def _usual_depth(across: FloatArray, lengths: FloatArray) -> tuple[FloatArray, F
     return usual, np.where(hangs, _HANGING[1], _RAISED[1])
 
 
-def _least_depth(place: FloatArray) -> FloatArray:
-    """How far forward a wrist is at least, by where it is in the view [m]. Shape (T,)."""
-    aside, height = np.abs(place[:, 0]), place[:, 1]
-    least = np.full(len(place), _BACK)
+def _least_depth(aside: FloatArray, height: FloatArray) -> FloatArray:
+    """How far before the trunk's plane a wrist is at least, by where it is [m]. Of the same shape."""
+    aside = np.abs(aside)
+    least = np.full_like(aside, _BACK)
     least[(aside < _TRUNK_HALF) & (height > _TRUNK_TO) & (height <= _HEAD_FROM)] = _CHEST
     least[(aside < _HEAD_HALF) & (height > _HEAD_FROM) & (height < _HEAD_TO)] = _FACE
     return least

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """From a person's points in a picture to keypoints in space.
 
-The person is taken as facing the camera: what is left and up is seen, what is forward follows from the
-lengths of limbs (`lifting.arms`), of a hand's bones (`lifting.hands`) and from the shape of a head
-(`lifting.head`). Shoulders and hips are in one plane across the view; what is before it looks larger by how
-near the camera is.
+What is left and up is seen, what is forward follows from the lengths of limbs (`lifting.arms`), of a hand's
+bones (`lifting.hands`) and from the shape of a head (`lifting.head`). Shoulders and hips are in one upright
+plane, turned as the detector imagines it (`lifting.trunk`); what is before them looks larger by how near the
+camera is.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ from teo_skeleton_retriever.lifting.hand_axes import MIDDLE, RING
 from teo_skeleton_retriever.lifting.hand_axes import WRIST as HAND_WRIST
 from teo_skeleton_retriever.lifting.hands import LiftedHand, has_depth, lift_hand
 from teo_skeleton_retriever.lifting.head import POINTS, lift_head
+from teo_skeleton_retriever.lifting.trunk import trunk_turn
 
 # [m] Standard deviation of shoulders and hips along the view: that of a trunk that is turned by 15 deg.
 _TRUNK_SIGMA = 0.04
@@ -55,7 +56,7 @@ def lift_clip(clip: PoseClip) -> LiftedPerson:
     """Lift a clip.
 
     Args:
-        clip: A person who faces the viewer, one shoulder and one hand seen at least in some frames.
+        clip: A person seen from in front, one shoulder and one hand at least in some frames.
     """
     # Limbs that come towards the camera look longer than they are, and so less foreshortened: what a first
     # lift finds to be near is drawn in and lifted anew. More lifts would trust depths beyond what they tell:
@@ -83,7 +84,8 @@ def _drawn_in(clip: PoseClip, lifted: FloatArray) -> PoseClip:
 
 def _lift_from_afar(clip: PoseClip) -> LiftedPerson:
     """Lift a clip in which all of a person has one scale."""
-    measure = measure_body(clip.body)
+    turn = trunk_turn(clip.body, period=1.0 / clip.rate)
+    measure = measure_body(clip.body, turn)
     places = measure.scale * clip.body.places
     places[..., 0] = np.nan
     sigma = np.full((*places.shape[:2], 2), np.nan)
@@ -95,12 +97,12 @@ def _lift_from_afar(clip: PoseClip) -> LiftedPerson:
     places[..., 1:] -= measure.scale * _between_shoulders(clip)[:, None]
     for point in (*SHOULDER.values(), *HIP.values()):
         known = np.isfinite(places[:, point, 1])
-        places[known, point, 0] = 0.0
+        places[known, point, 0] = np.tan(turn[known]) * places[known, point, 1]
         sigma[known, point] = _ACROSS_SIGMA, _TRUNK_SIGMA
     depths, head_sigma = lift_head(places[:, POINTS, 1:])
     places[:, POINTS, 0] = np.where(np.isfinite(places[:, POINTS, 1]), depths, np.nan)
     sigma[:, POINTS] = np.stack([np.full_like(head_sigma, _ACROSS_SIGMA), head_sigma], axis=-1)
-    hands = {side: _lift_side(clip, side, places, sigma, measure) for side in SIDES}
+    hands = {side: _lift_side(clip, side, places, sigma, measure, turn) for side in SIDES}
     confidence = clip.body.confidence.copy()
     for point, pair in ((ROW["Neck"], SHOULDER), (ROW["MidHip"], HIP)):
         rows = list(pair.values())
@@ -133,7 +135,7 @@ def _between_shoulders(clip: PoseClip) -> FloatArray:
 
 
 def _lift_side(
-    clip: PoseClip, side: str, places: FloatArray, sigma: FloatArray, measure: BodyMeasure
+    clip: PoseClip, side: str, places: FloatArray, sigma: FloatArray, measure: BodyMeasure, turn: FloatArray
 ) -> LiftedHand:
     """Fill in depths and deviations of elbow and wrist of one side; the hand about its wrist."""
     shoulder, elbow, wrist = SHOULDER[side], ELBOW[side], WRIST[side]
@@ -148,13 +150,14 @@ def _lift_side(
     hand = hand_along(unknown)
     knuckles = hand.points[:, [MIDDLE, RING]].mean(axis=1)
     arm = lift_arm(
-        shoulder=_filled(places[:, shoulder, 1:]),
+        shoulder=_filled(places[:, shoulder]),
         elbow=places[:, elbow, 1:],
         wrist=places[:, wrist, 1:],
         confidence=clip.body.confidence[:, [elbow, wrist]],
         guess=clip.body.places[:, wrist, 0] - clip.body.places[:, elbow, 0],
         hand=knuckles if has_depth(clip.hand(side)) else np.full_like(knuckles, np.nan),
         measure=measure,
+        turn=turn,
         period=period,
     )
     if not has_depth(clip.hand(side)):
@@ -177,7 +180,7 @@ def _mean(sigma: FloatArray) -> FloatArray:
 
 
 def _filled(places: FloatArray) -> FloatArray:
-    """Places over time, with gaps filled in straight lines; known at least once. Shape (T, 2)."""
+    """Places over time, with gaps filled in straight lines; known at least once. Shape (T, d)."""
     known = np.isfinite(places).all(axis=1)
     if not known.any():
         return places
