@@ -127,6 +127,8 @@ _HAND_COST = 4.0
 # Cost of a forearm against what the detector guesses of its depth, and of one that points away: hands mostly
 # sign in front of their elbows.
 _DETECTOR, _FORWARD = 0.5, 0.3
+# What is true of the detector's depth of an elbow before its shoulder, and what then remains [m].
+_TRUE, _GUESS = 0.32, 0.07
 # [m/s] Deviation of the speed of elbow and wrist along the view.
 _SPEED = 1.5
 # [m] What a depth trembles in any case.
@@ -172,8 +174,8 @@ def lift_arm(
         elbow: Left and up likewise; NaN where not seen. Shape (T, 2).
         wrist: Likewise.
         confidence: Of elbow and wrist, 0 to 1. Shape (T, 2).
-        guess: What the detector takes the wrist to be in front of the elbow, in any unit; NaN if
-            unknown. Shape (T,).
+        guess: How far the detector takes the elbow to be in front of the shoulder and the wrist in front of
+            the elbow, in about the scale of what is seen [m]; NaN if unknown. Shape (T, 2).
         hand: Direction from wrist to knuckles, forward, left, up; NaN if unknown. Shape (T, 3).
         measure: Lengths of the arm.
         turn: How far the trunk is turned to the person's own right [rad]. Shape (T,).
@@ -199,8 +201,10 @@ def lift_arm(
         path = cheapest_path(costs[known], reached, 1.0 / (_JITTER + _SPEED * period) ** 2)
         places[known] = reached[np.arange(len(path)), path]
     sigma[:, 1] = np.hypot(sigma[:, 0], sigma[:, 1])
+    imagined = shoulder[:, 0] + _TRUE * guess[:, 0]
+    places[:, 0], sigma[:, 0] = _together(places[:, 0], sigma[:, 0], imagined, np.full(len(turn), _GUESS))
     usual, deviation = _usual_depth(across, lengths)
-    places[:, 1], sigma[:, 1] = _with_usual(
+    places[:, 1], sigma[:, 1] = _together(
         places[:, 1], sigma[:, 1], trunk.depth(usual, wrist[:, 0]), deviation / np.cos(turn)
     )
     least = _least_depth(trunk.aside(places[:, 1], wrist[:, 0]), wrist[:, 1])
@@ -233,17 +237,18 @@ class _Trunk:
         return np.asarray(((forward.T + left.T * self._sine) / self._cosine).T)
 
 
-def _with_usual(
-    depths: FloatArray, sigma: FloatArray, usual: FloatArray, deviation: FloatArray
+def _together(
+    depths: FloatArray, sigma: FloatArray, others: FloatArray, deviation: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Depths of wrists and what is usual, each by how sure it is; the usual where no depth is known.
+    """Depths that are known in two ways, each by how sure it is; NaN where neither knows it. Shapes (T,).
 
     What is measured says little where a limb lies across the view or an elbow is guessed.
     """
-    weight = np.where(np.isfinite(depths), 1.0 / sigma**2, 0.0)
-    total = weight + 1.0 / deviation**2
-    mean = (weight * np.where(weight > 0.0, depths, 0.0) + usual / deviation**2) / total
-    return mean, np.sqrt(1.0 / total)
+    known = np.stack([depths, others])
+    weights = np.where(np.isfinite(known), 1.0 / np.stack([sigma, deviation]) ** 2, 0.0)
+    total = weights.sum(axis=0)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return (weights * np.nan_to_num(known)).sum(axis=0) / total, np.sqrt(1.0 / total)
 
 
 def _costs(
@@ -271,11 +276,12 @@ def _costs(
     bent = np.maximum(_angle(fore, hand[:, None]) - _WRIST, 0.0) / _WRIST_DEVIATION
     bent = np.minimum(np.where(np.isfinite(bent), bent, 0.0) ** 2, _HAND_COST)
     away = np.clip(-candidates[..., 1] / lengths[1], 0.0, 1.0)
-    against = np.where(np.isfinite(guess), np.sign(guess), 0.0)[:, None] * candidates[..., 1] < 0.0
+    against = np.where(np.isfinite(guess[:, 1]), np.sign(guess[:, 1]), 0.0)[:, None] * candidates[..., 1] < 0.0
+    off = np.nan_to_num(candidates[..., 0] - _TRUE * guess[:, :1]) / _GUESS
     usual, deviation = _usual_depth(across, lengths)
     unusual = (wrist - usual[:, None]) / deviation[:, None]
     costs: FloatArray = (
-        unusual**2 + behind**2 + inside**2 + folded**2 + bent + _FORWARD * away + _DETECTOR * against
+        unusual**2 + behind**2 + inside**2 + folded**2 + bent + _FORWARD * away + _DETECTOR * against + off**2
     )
     return costs
 

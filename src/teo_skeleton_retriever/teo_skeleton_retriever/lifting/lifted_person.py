@@ -154,7 +154,7 @@ def _lift_side(
         elbow=places[:, elbow, 1:],
         wrist=places[:, wrist, 1:],
         confidence=clip.body.confidence[:, [elbow, wrist]],
-        guess=clip.body.places[:, wrist, 0] - clip.body.places[:, elbow, 0],
+        guess=measure.scale * np.diff(clip.body.places[:, [shoulder, elbow, wrist], 0], axis=1),
         hand=knuckles if has_depth(clip.hand(side)) else np.full_like(knuckles, np.nan),
         measure=measure,
         turn=turn,
