@@ -110,9 +110,12 @@ _TRUNK_HALF, _HEAD_HALF, _HEAD_FROM, _HEAD_TO = 0.15, 0.09, 0.10, 0.35
 _TRUNK_TO = -0.45
 # [m] Elbows of arms that hang are so far behind the shoulders, those of signing arms are not.
 _ELBOW_BACK = -0.10
-# [m] Where wrists mostly are in front of the shoulders, and its deviation: of forearms that are raised, in
-# the space where one signs, and of arms that hang.
-_RAISED, _HANGING = (0.22, 0.12), (0.03, 0.05)
+# [m] How far wrists mostly are before the shoulders' plane, by their height above the shoulders, and the
+# deviation: of forearms that are raised, in 225 signs by rendered people (0.06 m; a person's own signs differ
+# more), and of arms that hang.
+_RAISED = (-0.45, -0.30, -0.20, -0.05, 0.10), (0.08, 0.15, 0.22, 0.25, 0.19)
+_RAISED_DEVIATION = 0.08
+_HANGING, _HANGING_DEVIATION = 0.03, 0.05
 # Share of both limbs' lengths that a hanging arm has downwards.
 _HANGS = 0.85
 # [m] Deviation of all of these from person to person.
@@ -203,7 +206,7 @@ def lift_arm(
     sigma[:, 1] = np.hypot(sigma[:, 0], sigma[:, 1])
     imagined = shoulder[:, 0] + _TRUE * guess[:, 0]
     places[:, 0], sigma[:, 0] = _together(places[:, 0], sigma[:, 0], imagined, np.full(len(turn), _GUESS))
-    usual, deviation = _usual_depth(across, lengths)
+    usual, deviation = _usual_depth(across, lengths, wrist[:, 1])
     places[:, 1], sigma[:, 1] = _together(
         places[:, 1], sigma[:, 1], trunk.depth(usual, wrist[:, 0]), deviation / np.cos(turn)
     )
@@ -278,7 +281,7 @@ def _costs(
     away = np.clip(-candidates[..., 1] / lengths[1], 0.0, 1.0)
     against = np.where(np.isfinite(guess[:, 1]), np.sign(guess[:, 1]), 0.0)[:, None] * candidates[..., 1] < 0.0
     off = np.nan_to_num(candidates[..., 0] - _TRUE * guess[:, :1]) / _GUESS
-    usual, deviation = _usual_depth(across, lengths)
+    usual, deviation = _usual_depth(across, lengths, seen[:, 1, 1])
     unusual = (wrist - usual[:, None]) / deviation[:, None]
     costs: FloatArray = (
         unusual**2 + behind**2 + inside**2 + folded**2 + bent + _FORWARD * away + _DETECTOR * against + off**2
@@ -286,11 +289,19 @@ def _costs(
     return costs
 
 
-def _usual_depth(across: FloatArray, lengths: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Where a wrist mostly is in front of the shoulders, and the deviation [m]. Shapes (T,)."""
+def _usual_depth(
+    across: FloatArray, lengths: FloatArray, height: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """How far before the trunk's plane a wrist mostly is, and the deviation [m]. Shapes (T,).
+
+    Args:
+        across: Both limbs as they are seen [m]. Shape (T, 2, 2).
+        lengths: Of both [m].
+        height: Of the wrist above the shoulders [m]. Shape (T,).
+    """
     hangs = -across[..., 1].sum(axis=1) > _HANGS * lengths.sum()  # no limb that is not seen hangs
-    usual = np.where(hangs, _HANGING[0], _RAISED[0])
-    return usual, np.where(hangs, _HANGING[1], _RAISED[1])
+    raised = np.interp(np.nan_to_num(height), *_RAISED)
+    return np.where(hangs, _HANGING, raised), np.where(hangs, _HANGING_DEVIATION, _RAISED_DEVIATION)
 
 
 def _least_depth(aside: FloatArray, height: FloatArray) -> FloatArray:
