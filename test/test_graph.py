@@ -100,8 +100,9 @@ def witness(domain_id: int) -> Iterator[Witness]:
 
 def ros2(*words: str) -> str:
     """What a command of `ros2` says, which must succeed."""
-    done = subprocess.run(["ros2", *words], env=os.environ, check=True, capture_output=True, timeout=30)
-    return done.stdout.decode()
+    done = subprocess.run(["ros2", *words], env=os.environ, capture_output=True, timeout=90, text=True)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
 
 
 def speak(language: str) -> None:

@@ -206,8 +206,12 @@ class _Reader:
         parts = self._parts(pose.header, layout, data, confidence)
         self._check_seen(parts)
         size = (pose.header.dimensions.width, pose.header.dimensions.height)
-        if _is_fractions(parts["body"].places, size):
-            parts = {name: _scaled(points, size) for name, points in parts.items()}
+        in_picture = _is_in_picture(parts["body"].places)
+        if in_picture and _is_fractions(parts["body"].places, size):
+            parts = {name: _scaled(points, [1.0, *size]) for name, points in parts.items()}
+        if in_picture and layout is _MEDIAPIPE:
+            # MediaPipe's depths of a body are shares of the picture's width; pose-format leaves them so.
+            parts["body"] = _scaled(parts["body"], [size[0], 1.0, 1.0])
         return PoseClip(rate=rate, **parts, source=self._name)
 
     def _refuse(self, code: str, expected: str, got: str) -> NoReturn:
@@ -339,20 +343,24 @@ def _is_reversed(body: Points) -> bool:
     return votes < 0
 
 
-def _is_fractions(body: Array, size: tuple[int, int]) -> bool:
-    """Whether places count in widths and heights of the picture, as MediaPipe itself gives them.
+def _is_in_picture(body: Array) -> bool:
+    """Whether places are of a picture, and not scaled to the breadth of the shoulders, which then are at 0."""
+    middle = np.nanmedian(body[:, list(SHOULDER.values()), 1:], axis=(0, 1))
+    return bool(np.abs(middle).max() > _CENTRED)
 
-    Those differ. Pixels count alike both ways, and so do clips that were scaled to the breadth of the
-    shoulders, which then are about 0.
+
+def _is_fractions(body: Array, size: tuple[int, int]) -> bool:
+    """Whether places in a picture count in its widths and heights, as MediaPipe itself gives them.
+
+    Those differ; pixels count alike both ways.
     """
     seen = body[np.isfinite(body[..., 1])][:, 1:] * [1.0, -1.0]
-    middle = np.nanmedian(body[:, list(SHOULDER.values()), 1:], axis=(0, 1))
-    within = (np.abs(seen - 0.5) <= _FRACTION_LIMIT).mean() > _MOST
-    return bool(min(size) > 1 and within and np.abs(middle).max() > _CENTRED)
+    return bool(min(size) > 1 and (np.abs(seen - 0.5) <= _FRACTION_LIMIT).mean() > _MOST)
 
 
-def _scaled(points: Points, size: tuple[int, int]) -> Points:
-    places = points.places * [1.0, *size]
+def _scaled(points: Points, scales: Sequence[float]) -> Points:
+    """Depths, and places across and up, each times a number."""
+    places = points.places * scales
     places.setflags(write=False)
     return Points(places=places, confidence=points.confidence)
 

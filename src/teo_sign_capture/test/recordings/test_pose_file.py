@@ -112,8 +112,9 @@ def test_places_are_forward_left_and_up(tmp_path: Path) -> None:
     clip = read_pose_file(write(tmp_path / "a.pose"))
     assert clip.rate == 25.0
     left, right = clip.body.places[0, 5], clip.body.places[0, 2]
-    np.testing.assert_allclose(left, [-0.1, 400.0, -200.0], atol=1e-4)
-    np.testing.assert_allclose(right, [-0.1, 240.0, -200.0], atol=1e-4)
+    # Depths of the body are a tenth of the picture's width.
+    np.testing.assert_allclose(left, [-0.1 * 640, 400.0, -200.0], atol=1e-4)
+    np.testing.assert_allclose(right, [-0.1 * 640, 240.0, -200.0], atol=1e-4)
     np.testing.assert_allclose(clip.right_hand.places[0, 8, 1:], [200.0 + 12.0, -250.0], atol=12.0 * 4)
     assert not clip.body.seen[:, 10].any()  # legs are not read
     assert clip.hand("left").seen.all()

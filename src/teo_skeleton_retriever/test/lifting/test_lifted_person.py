@@ -133,6 +133,45 @@ def test_arms_come_back_to_a_few_centimetres(
         assert np.percentile(away, 90.0) < most
 
 
+def turned(points: FloatArray, angle: float) -> FloatArray:
+    """A person turned to their own right [rad]."""
+    cosine, sine = math.cos(angle), math.sin(angle)
+    return points @ np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+
+
+def with_imagined_depths(clip: PoseClip, truth: FloatArray) -> PoseClip:
+    """Depths of the body as MediaPipe imagines them: 2.6 times too large, arms off by 7 cm for a second."""
+    random = np.random.default_rng(1)
+    places = clip.body.places.copy()
+    off = np.repeat(random.normal(0.0, 0.07, (len(truth) // 15 + 1, places.shape[1])), 15, axis=0)[: len(truth)]
+    off[:, list(SHOULDER.values())] = random.normal(0.0, 0.01, (len(truth), 2))
+    places[..., 0] = (truth[:, BODY, 0] + off) / 0.38 * PIXELS
+    return replace(clip, body=replace(clip.body, places=places))
+
+
+@pytest.mark.parametrize("degrees", [-40.0, -25.0, 25.0, 40.0])
+def test_a_signer_who_stands_turned_is_lifted_as_one_who_faces_the_camera(
+    truth: FloatArray, degrees: float
+) -> None:
+    angle = math.radians(degrees)
+    shown = turned(truth, angle)
+    clip = picture(shown)
+    flat, found = lift_clip(clip), lift_clip(with_imagined_depths(clip, shown))
+    # Told by the detector, the hands are before the trunk where they were.
+    straight = found._replace(positions=turned(found.positions, -angle))
+    away = distances(truth, straight, WRIST)
+    assert np.median(away) < 0.08
+    assert np.median(away) < 0.6 * np.median(distances(truth, flat, WRIST))
+    shoulders = found.positions[:, SHOULDER["left"]] - found.positions[:, SHOULDER["right"]]
+    assert np.degrees(np.arctan2(shoulders[:, 0], shoulders[:, 1])).mean() == pytest.approx(degrees, abs=6.0)
+
+
+def test_imagined_depths_of_who_faces_the_camera_do_no_harm(truth: FloatArray, lifted: LiftedPerson) -> None:
+    found = lift_clip(with_imagined_depths(picture(truth), truth))
+    for points in (WRIST, ELBOW):
+        assert np.median(distances(truth, found, points)) < np.median(distances(truth, lifted, points)) + 0.01
+
+
 def test_hands_keep_their_shape_and_the_way_the_palm_faces(truth: FloatArray, lifted: LiftedPerson) -> None:
     away, angle = hand_errors(truth, lifted)
     assert np.median(away) < 0.018

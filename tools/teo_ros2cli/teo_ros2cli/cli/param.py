@@ -19,6 +19,8 @@ from teo_ros2cli.messages.parameters import TYPES, WILDCARD, descriptor_text, pl
 
 # Time that a node gets to answer unless another is given [s].
 _TIMEOUT = 5.0
+# Time that it gets to set one [s]: with a parameter a node may load a model or a table of signs.
+_SETTING_TIMEOUT = 60.0
 
 
 def _add_common(parser: argparse.ArgumentParser) -> None:
@@ -277,9 +279,10 @@ class _Parameters:
         from rcl_interfaces.msg import Parameter
 
         parameter = Parameter(name=name, value=value)
-        return self._call(node, "set_parameters", parameters=[parameter]).results[0]
+        patience = max(self._timeout, _SETTING_TIMEOUT)
+        return self._call(node, "set_parameters", patience, parameters=[parameter]).results[0]
 
-    def _call(self, node: str, service: str, **request: Any) -> Any:
+    def _call(self, node: str, service: str, answer_timeout: float | None = None, **request: Any) -> Any:
         """Call `<node>/list_parameters`, of rcl_interfaces/srv/ListParameters, and the like."""
         from rcl_interfaces import srv
 
@@ -289,4 +292,11 @@ class _Parameters:
         if not look_again(lambda: node in node_names(self._node)):
             raise Ros2CliError("node_unknown", "Node not found")
         cls = getattr(srv, service.title().replace("_", ""))
-        return call(self._node, cls, f"{node}/{service}", cls.Request(**request), timeout=self._timeout)
+        return call(
+            self._node,
+            cls,
+            f"{node}/{service}",
+            cls.Request(**request),
+            timeout=self._timeout,
+            answer_timeout=answer_timeout,
+        )

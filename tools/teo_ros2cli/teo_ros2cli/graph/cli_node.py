@@ -130,8 +130,24 @@ def wait_for(node: Any, future: Any, timeout: float | None = None) -> Any:
     return future.result()
 
 
-def call(node: Any, service_class: Any, name: str, request: Any, *, timeout: float) -> Any:
+def call(
+    node: Any,
+    service_class: Any,
+    name: str,
+    request: Any,
+    *,
+    timeout: float,
+    answer_timeout: float | None = None,
+) -> Any:
     """Call a service that is expected to be there, and return its response.
+
+    Args:
+        node: Who calls.
+        service_class: Type of the service.
+        name: Of the service.
+        request: What is asked.
+        timeout: How long the service may take to appear [s].
+        answer_timeout: How long it may then take to answer [s]; as long without.
 
     Raises:
         Ros2CliError: `service_unavailable`, it did not appear in time; `no_answer`.
@@ -140,6 +156,6 @@ def call(node: Any, service_class: Any, name: str, request: Any, *, timeout: flo
     try:
         if not client.wait_for_service(timeout_sec=timeout):
             raise Ros2CliError("service_unavailable", f"Service '{name}' is not available")
-        return wait_for(node, client.call_async(request), timeout)
+        return wait_for(node, client.call_async(request), answer_timeout or timeout)
     finally:
         node.destroy_client(client)

@@ -22,11 +22,11 @@ HAND = np.zeros((21, 3))
 
 
 def landmarks(**seen: Any) -> HolisticLandmarks:
-    """Landmarks whose place tells which they are: x = i / 100, y = i / 50, visibility = 1 - i / 100."""
+    """Landmarks whose place tells which they are: x = z = i / 100, y = i / 50, visibility = 1 - i / 100."""
     i = np.arange(33.0)
     parts: dict[str, Any] = dict.fromkeys(HolisticLandmarks.__dataclass_fields__)
     sure = {name: 1.0 for name in parts if name.endswith(("_score", "_side"))}
-    pose = np.column_stack([i / 100, i / 50, np.zeros(33), 1 - i / 100, np.ones(33)])
+    pose = np.column_stack([i / 100, i / 50, i / 100, 1 - i / 100, np.ones(33)])
     return HolisticLandmarks(**{**parts, **sure, "pose": pose, **seen})
 
 
@@ -43,6 +43,9 @@ def test_landmarks_become_pixels_with_their_visibility_and_midpoints_have_the_lo
     body = person().body
     assert row(body, "Neck") == pytest.approx([11.5, 23.0, 0.88])
     assert row(body, "MidHip") == pytest.approx([23.5, 47.0, 0.76])
+    depth = person(200).body_depth
+    assert depth is not None
+    assert (depth / 200 * 100)[[BODY_25.index[name] for name in ("RWrist", "Neck")]] == pytest.approx([16, 11.5])
     assert row(body, "LSmallToe") == row(body, "RSmallToe") == [0.0, 0.0, 0.0]
 
 
