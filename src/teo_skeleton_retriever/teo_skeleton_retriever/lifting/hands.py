@@ -112,8 +112,10 @@ def lift_hand(hand: Points, *, scale: float, period: float, right: bool, forearm
     lengths = _bone_lengths(places, scale)
     guess = _guess(places, scale)
     if guess is not None:
-        across = np.concatenate([guess[..., None], scale * places[..., 1:]], axis=2)
-        kept = without_flips(palm_axes(across)[..., 2], np.flatnonzero(seen) * np.float64(period))
+        times = np.flatnonzero(seen) * np.float64(period)
+        # Front taken for back: what the detector has behind the wrist is before it.
+        guess[~without_flips(_palms(guess, scale * places), times)] *= -1.0
+        kept = without_flips(_palms(guess, scale * places), times)
         seen[np.flatnonzero(seen)[~kept]] = False
         places, guess = places[kept], guess[kept]
     if guess is None:
@@ -202,6 +204,11 @@ def without_flips(palms: FloatArray, times: FloatArray) -> BoolArray:
         kept[at] = True
         at = int(before[at])
     return kept
+
+
+def _palms(depths: FloatArray, places: FloatArray) -> FloatArray:
+    """Ways the palm faces. Shape (T, 3)."""
+    return palm_axes(np.concatenate([depths[..., None], places[..., 1:]], axis=2))[..., 2]
 
 
 def _bones(points: FloatArray) -> FloatArray:
