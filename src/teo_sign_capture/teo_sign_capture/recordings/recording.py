@@ -187,7 +187,7 @@ def lifted_track(clip: PoseClip, *, recorded: str | None = None) -> SkeletonTrac
     """Lift a clip into space, and bring it into the axes of the trunk.
 
     Args:
-        clip: A person who faces the viewer, one shoulder and one hand seen at least in some frames.
+        clip: A person seen from in front, one shoulder and one hand at least in some frames.
         recorded: Day of the recording, YYYY-MM-DD; None if not known.
 
     Raises:

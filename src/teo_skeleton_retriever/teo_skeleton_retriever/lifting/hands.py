@@ -93,8 +93,8 @@ def lift_hand(hand: Points, *, scale: float, period: float, right: bool, forearm
     """Find the depth of a hand's points.
 
     Args:
-        hand: In the picture; frames in which a point is missing, or the palm flips and flips back, count as
-            not seen.
+        hand: In the picture; frames in which a point is missing, or the palm flips and flips back even with
+            front and back exchanged, count as not seen.
         scale: Metres for a unit of the clip.
         period: Between two frames [s].
         right: Whether it is a right hand.
