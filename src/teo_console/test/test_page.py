@@ -39,6 +39,7 @@ from teo_bringup.graph import Graph
 from teo_sim_driver.motion.path_time import DEFAULT_STOP_DECELERATION, DEFAULT_STOP_JERK
 
 WEB = Path(__file__).parents[1] / "web"
+HELD = 200.0  # [ms] for which a letter is lit at least
 TABS = ("watch", "dictionary", "teach", "review", "practise")
 NewPage = Callable[..., Page]
 
@@ -97,6 +98,7 @@ def test_a_typed_sentence_is_signed_its_captions_in_order_while_the_joints_move(
     with film.scene(page):
         sign(page, "¿Eres Eva?")
         expect(page.locator(".token.lit")).to_be_visible()
+        page.evaluate("window.stood = 0")
         assert page.inner_text("#status").startswith("Signando: ¿Eres Eva?")
         glosses = page.locator(".token").evaluate_all("items => items.map((item) => item.dataset.gloss)")
         assert glosses == ["TÚ", "E", "V", "A"]
@@ -104,7 +106,10 @@ def test_a_typed_sentence_is_signed_its_captions_in_order_while_the_joints_move(
         page.click('.token[data-gloss="V"] button')
         expect(page.locator(".explanation")).to_contain_text("«Eva» se deletrea")
         wait_until_ready(page)
-    assert page.evaluate("window.lit") == ["TÚ", "E", "V", "A"]
+    lit = page.evaluate("window.lit")
+    assert lit == [gloss for gloss in glosses if gloss in lit]
+    # On a starved machine the page may draw nothing for longer than a letter is held.
+    assert len(lit) > 1 if page.evaluate("window.stood") > HELD else lit == glosses
     page.screenshot(path=pictures / "watch_desktop.png")  # a page without a graphics card stands for a second
     assert poses.farthest() > 0.5
     expect(page.locator(".history li").filter(has_text="¿Eres Eva?")).to_have_count(1)

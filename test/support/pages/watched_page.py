@@ -25,6 +25,13 @@ DIFFERENT = 3.0  # mean difference of two pictures' pixels, of 255, above which 
 NOTE_LIT = """
 () => {
   window.lit = [];
+  window.stood = 0; // [ms] the longest that the page drew nothing
+  let before = performance.now();
+  requestAnimationFrame(function drawn(now) {
+    window.stood = Math.max(window.stood, now - before);
+    before = now;
+    requestAnimationFrame(drawn);
+  });
   new MutationObserver(() => {
     const now = document.querySelector(".token.lit");
     if (now && now !== window.last) window.lit.push(now.dataset.gloss);
