@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -22,20 +23,31 @@ from teo_skeleton_retriever.lifting.hand_axes import palm_axes
 SCRIPTS = ("signing", "face", "crossing", "spelling")
 BODIES = ("woman_average", "man_average", "man_tall")
 _NEAR = 2.0  # [m] from a camera in whose picture hands are larger than shoulders
+_TURN = math.radians(40.0)  # of signers who show a sign from the side
 _RAISED = -0.36  # [m] below the shoulders: lower wrists hang
 
 
 def measure(bodies: int = len(BODIES)) -> list[Figure]:
-    """Errors of raised arms and of hands: from afar, from near, and without a guess of depth."""
+    """Errors of raised arms and of hands: from afar and from near, without and with guesses of depth, turned."""
     tracks = [script_track(script, body) for script in SCRIPTS for body in BODIES[:bodies]]
     figures = []
-    for name, distance, depth in (
-        ("from afar", math.inf, True),
-        (f"from {_NEAR:g} m", _NEAR, True),
-        ("from afar, no depth in the hands", math.inf, False),
-    ):
+    near = {"distance": _NEAR}
+    cases: dict[str, dict[str, Any]] = {
+        "from afar": {},
+        f"from {_NEAR:g} m": near,
+        "from afar, no depth in the hands": {"depth": False},
+        f"from {_NEAR:g} m, depths of the body imagined": {**near, "imagined": True},
+        f"from {_NEAR:g} m, turned by 40 deg": {**near, "turn": _TURN},
+        f"from {_NEAR:g} m, turned by 40 deg, depths of the body imagined": {
+            **near,
+            "turn": _TURN,
+            "imagined": True,
+        },
+    }
+    for name, seen in cases.items():
         found = [
-            _errors(track, lifted_track(pictured(track, distance=distance, depth=depth))) for track in tracks
+            _errors(track, lifted_track(pictured(track, seed=number, **seen)))
+            for number, track in enumerate(tracks)
         ]
         elbows, wrists, sized, palms = (np.concatenate(errors) for errors in zip(*found, strict=True))
         figures += [

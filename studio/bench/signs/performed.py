@@ -20,7 +20,7 @@ from teo_common.arrays import Array
 from teo_sign_authoring.notation.performance import performance
 from teo_sign_authoring.notation.score_file import default_scores_directory, read_scores
 from teo_sign_authoring.notation.score_schema import Score
-from teo_sign_capture.tracks.skeleton_track import Keypoints, SkeletonTrack, in_body_axes
+from teo_sign_capture.tracks.skeleton_track import SHOULDER, Keypoints, SkeletonTrack, in_body_axes
 from teo_skeleton_retriever.lifting.clip import Points, PoseClip
 from teo_synthetic_signer.body.body_shapes import BODIES
 from teo_synthetic_signer.body.signer import Signer
@@ -33,6 +33,9 @@ from teo_synthetic_signer.script.scripts import script as script_named
 RATE = 25.0  # [Hz] of performances and of their pictures
 _PIXELS, _NOISE = 550.0, 1.5  # of a metre; deviation of a point [pixel], as MediaPipe's across the view
 _DEPTH_NOISE, _DEPTH_SHARE = 0.006, 0.8  # of guessed depths in a hand: [m], and what is left of the true ones
+# Of depths of a body as MediaPipe imagines them, by 42 takes of people who stood turned: what it makes of a true
+# metre, and how far off an arm [m] is for a second and a shoulder for a take.
+_IMAGINED, _ARM_OFF, _SHOULDER_OFF = 2.6, 0.07, 0.025
 
 
 class Draw(NamedTuple):
@@ -139,7 +142,13 @@ def _known(positions: Array) -> Keypoints:
 
 
 def pictured(
-    track: SkeletonTrack, *, distance: float = math.inf, depth: bool = True, seed: int = 0
+    track: SkeletonTrack,
+    *,
+    distance: float = math.inf,
+    depth: bool = True,
+    seed: int = 0,
+    turn: float = 0.0,
+    imagined: bool = False,
 ) -> PoseClip:
     """A person as one camera without depth sees them.
 
@@ -148,10 +157,15 @@ def pictured(
         distance: Of the camera [m]; infinite shows everything at one scale.
         depth: Whether depths within the hands are guessed, as MediaPipe does.
         seed: Of the noise.
+        turn: How far the person stands turned to their own right [rad].
+        imagined: Whether depths of the body are, as MediaPipe does.
     """
     random = np.random.default_rng(seed)
+    cosine, sine = math.cos(turn), math.sin(turn)
+    turned = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
 
-    def part(true: Array, *, guessed: bool) -> Points:
+    def part(standing: Array, *, guessed: bool) -> Points:
+        true = standing @ turned
         size = _PIXELS / (1.0 - true[..., 0] / distance)
         places = true * size[..., None] + random.normal(0.0, _NOISE, true.shape)
         along = (true - true[:, :1])[..., 0]
@@ -159,9 +173,15 @@ def pictured(
         places[..., 0] = guess if guessed else np.nan
         return Points(places=places, confidence=np.ones(true.shape[:2]))
 
+    body = part(track.body.positions, guessed=False)
+    if imagined:
+        depths, seconds = (track.body.positions @ turned)[..., 0], int(len(track.times) / RATE) + 1
+        off = random.normal(0.0, _ARM_OFF, (seconds, depths.shape[1])).repeat(int(RATE), axis=0)[: len(depths)]
+        off[:, list(SHOULDER.values())] = random.normal(0.0, _SHOULDER_OFF, 2)
+        body.places[..., 0] = _IMAGINED * _PIXELS * (depths + off)
     return PoseClip(
         rate=RATE,
-        body=part(track.body.positions, guessed=False),
+        body=body,
         left_hand=part(track.left_hand.positions, guessed=depth),
         right_hand=part(track.right_hand.positions, guessed=depth),
         source=track.source,
