@@ -28,7 +28,7 @@ _RAISED = -0.36  # [m] below the shoulders: lower wrists hang
 
 
 def measure(bodies: int = len(BODIES)) -> list[Figure]:
-    """Errors of raised arms and of hands: from afar and from near, without and with guesses of depth, turned."""
+    """Errors of raised arms and of hands: from afar, from near, turned, with and without depths."""
     tracks = [script_track(script, body) for script in SCRIPTS for body in BODIES[:bodies]]
     figures = []
     near = {"distance": _NEAR}

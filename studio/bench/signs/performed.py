@@ -33,8 +33,8 @@ from teo_synthetic_signer.script.scripts import script as script_named
 RATE = 25.0  # [Hz] of performances and of their pictures
 _PIXELS, _NOISE = 550.0, 1.5  # of a metre; deviation of a point [pixel], as MediaPipe's across the view
 _DEPTH_NOISE, _DEPTH_SHARE = 0.006, 0.8  # of guessed depths in a hand: [m], and what is left of the true ones
-# Of depths of a body as MediaPipe imagines them, by 42 takes of people who stood turned: what it makes of a true
-# metre, and how far off an arm [m] is for a second and a shoulder for a take.
+# Of depths of a body as MediaPipe imagines them, by 42 takes of people who stood turned: what it makes of a
+# true metre, and how far off an arm [m] is for a second and a shoulder for a take.
 _IMAGINED, _ARM_OFF, _SHOULDER_OFF = 2.6, 0.07, 0.025
 
 
@@ -176,7 +176,9 @@ def pictured(
     body = part(track.body.positions, guessed=False)
     if imagined:
         depths, seconds = (track.body.positions @ turned)[..., 0], int(len(track.times) / RATE) + 1
-        off = random.normal(0.0, _ARM_OFF, (seconds, depths.shape[1])).repeat(int(RATE), axis=0)[: len(depths)]
+        off = random.normal(0.0, _ARM_OFF, (seconds, depths.shape[1])).repeat(int(RATE), axis=0)[
+            : len(depths)
+        ]
         off[:, list(SHOULDER.values())] = random.normal(0.0, _SHOULDER_OFF, 2)
         body.places[..., 0] = _IMAGINED * _PIXELS * (depths + off)
     return PoseClip(

@@ -161,8 +161,8 @@ def find_points(video: Path, out: Path, on_progress: Progress | None = None) -> 
     """Find the person in a video and write a `.pose` file, in a process of its own.
 
     The file is one as other programs write and read them (BODY_25 and hands of 21 points, in OpenPose's
-    names), so that a video goes the way of every clip. Depths are as the detector imagines them, of the body in
-    about the scale of the picture, of hands in metres.
+    names), so that a video goes the way of every clip. Depths are as the detector imagines them: of the body
+    in about the scale of the picture, of hands in metres.
 
     Args:
         video: The video.

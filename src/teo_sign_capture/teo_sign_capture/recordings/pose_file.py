@@ -344,7 +344,7 @@ def _is_reversed(body: Points) -> bool:
 
 
 def _is_in_picture(body: Array) -> bool:
-    """Whether places are of a picture, and not scaled to the breadth of the shoulders, which then are at 0."""
+    """Whether places are of a picture, and not scaled to the shoulders' breadth, which then are at 0."""
     middle = np.nanmedian(body[:, list(SHOULDER.values()), 1:], axis=(0, 1))
     return bool(np.abs(middle).max() > _CENTRED)
 

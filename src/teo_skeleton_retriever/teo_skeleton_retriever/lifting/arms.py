@@ -279,7 +279,9 @@ def _costs(
     bent = np.maximum(_angle(fore, hand[:, None]) - _WRIST, 0.0) / _WRIST_DEVIATION
     bent = np.minimum(np.where(np.isfinite(bent), bent, 0.0) ** 2, _HAND_COST)
     away = np.clip(-candidates[..., 1] / lengths[1], 0.0, 1.0)
-    against = np.where(np.isfinite(guess[:, 1]), np.sign(guess[:, 1]), 0.0)[:, None] * candidates[..., 1] < 0.0
+    against = (
+        np.where(np.isfinite(guess[:, 1]), np.sign(guess[:, 1]), 0.0)[:, None] * candidates[..., 1] < 0.0
+    )
     off = np.nan_to_num(candidates[..., 0] - _TRUE * guess[:, :1]) / _GUESS
     usual, deviation = _usual_depth(across, lengths, seen[:, 1, 1])
     unusual = (wrist - usual[:, None]) / deviation[:, None]

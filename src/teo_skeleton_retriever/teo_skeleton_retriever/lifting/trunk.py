@@ -17,8 +17,8 @@ from teo_skeleton_retriever.lifting.depth_smoothing import smooth_depth
 # What is true of the depths that MediaPipe gives shoulders: of 42 takes of six rendered people who stood
 # turned by up to 45 deg, the tangent of the true turn was 0.38 of theirs; 5.5 deg remained.
 _SHARE = 0.38
-# [rad] Deviation of a turn that was found. Most signers face the camera: of a turn that is no larger than this
-# little is believed, of a larger one nearly all.
+# [rad] Deviation of a turn that was found. Most signers face the camera: of a turn that is no larger than
+# this little is believed, of a larger one nearly all.
 _DEVIATION = np.radians(10.0)
 # [rad] Deviation from one frame to the next, and the acceleration with which trunks turn [rad/s^2]: a raised
 # arm pulls the shoulder that is found along, a signer who turns to somebody takes half a second.

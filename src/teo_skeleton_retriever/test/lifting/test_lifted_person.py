@@ -143,7 +143,9 @@ def with_imagined_depths(clip: PoseClip, truth: FloatArray) -> PoseClip:
     """Depths of the body as MediaPipe imagines them: 2.6 times too large, arms off by 7 cm for a second."""
     random = np.random.default_rng(1)
     places = clip.body.places.copy()
-    off = np.repeat(random.normal(0.0, 0.07, (len(truth) // 15 + 1, places.shape[1])), 15, axis=0)[: len(truth)]
+    off = np.repeat(random.normal(0.0, 0.07, (len(truth) // 15 + 1, places.shape[1])), 15, axis=0)[
+        : len(truth)
+    ]
     off[:, list(SHOULDER.values())] = random.normal(0.0, 0.01, (len(truth), 2))
     places[..., 0] = (truth[:, BODY, 0] + off) / 0.38 * PIXELS
     return replace(clip, body=replace(clip.body, places=places))
@@ -222,7 +224,9 @@ def flipped(hand: Points, frames: Sequence[int]) -> Points:
 
 def palm_errors(truth: FloatArray, person: LiftedPerson, frames: Sequence[int]) -> FloatArray:
     """Between the ways the right palm faces and was found to, in the frames in which it was [deg]."""
-    true, found = (palm_axes(points[list(frames), RIGHT_HAND])[..., 2] for points in (truth, person.positions))
+    true, found = (
+        palm_axes(points[list(frames), RIGHT_HAND])[..., 2] for points in (truth, person.positions)
+    )
     cosine = (true * found).sum(axis=1)
     return np.degrees(np.arccos(np.clip(cosine[np.isfinite(cosine)], -1.0, 1.0)))
 

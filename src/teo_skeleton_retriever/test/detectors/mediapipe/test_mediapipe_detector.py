@@ -45,7 +45,9 @@ def test_landmarks_become_pixels_with_their_visibility_and_midpoints_have_the_lo
     assert row(body, "MidHip") == pytest.approx([23.5, 47.0, 0.76])
     depth = person(200).body_depth
     assert depth is not None
-    assert (depth / 200 * 100)[[BODY_25.index[name] for name in ("RWrist", "Neck")]] == pytest.approx([16, 11.5])
+    assert (depth / 200 * 100)[[BODY_25.index[name] for name in ("RWrist", "Neck")]] == pytest.approx(
+        [16, 11.5]
+    )
     assert row(body, "LSmallToe") == row(body, "RSmallToe") == [0.0, 0.0, 0.0]
 
 
