@@ -224,7 +224,8 @@ def skeletons_of(recording: Recording, cache: Path) -> Path:
 def _cached(recording: Recording, cache: Path) -> Path:
     # Other pairs of colour and depth make other skeletons.
     paired = "" if recording.slop == DEFAULT_SLOP else f"-slop{recording.slop:g}"
-    suffix = _POSE_SUFFIX if recording.is_flat else ".mcap"
+    # Films that were looked at before bodies had depths are looked at anew.
+    suffix = f"-depths{_POSE_SUFFIX}" if recording.is_flat else ".mcap"
     return cache / f"{recording.path.stem}-{recording.digest[:12]}{paired}{suffix}"
 
 

@@ -39,8 +39,7 @@ def trunk_turn(body: Points, *, period: float) -> FloatArray:
     """
     away = body.places[:, SHOULDER["left"]] - body.places[:, SHOULDER["right"]]
     turn = np.arctan2(_SHARE * away[:, 0], np.abs(away[:, 1]))[:, None]
-    if not np.isfinite(turn).any():
-        return np.zeros(len(turn))
     smooth = smooth_depth(turn, np.full_like(turn, _TREMBLE), period=period, acceleration=_ACCELERATION)[:, 0]
-    believed = smooth**2 / (smooth**2 + _DEVIATION**2)
-    return np.asarray(np.clip(believed * np.nan_to_num(smooth), -_MOST, _MOST))
+    found = np.nan_to_num(smooth)
+    believed = found**2 / (found**2 + _DEVIATION**2)
+    return np.asarray(np.clip(believed * found, -_MOST, _MOST))

@@ -174,6 +174,22 @@ def test_imagined_depths_of_who_faces_the_camera_do_no_harm(truth: FloatArray, l
         assert np.median(distances(truth, found, points)) < np.median(distances(truth, lifted, points)) + 0.01
 
 
+def test_shoulders_whose_depths_are_known_in_one_frame_of_two_are_lifted(truth: FloatArray) -> None:
+    clip = with_imagined_depths(picture(truth), truth)
+    places = clip.body.places.copy()
+    places[11, list(SHOULDER.values()), 0] = np.nan
+    two = {
+        part: Points(places=points.places[10:12], confidence=points.confidence[10:12])
+        for part, points in (
+            ("body", replace(clip.body, places=places)),
+            ("left_hand", clip.left_hand),
+            ("right_hand", clip.right_hand),
+        )
+    }
+    found = lift_clip(replace(clip, **two))
+    assert np.isfinite(found.positions[:, [*SHOULDER.values(), *WRIST.values()]]).all()
+
+
 def test_hands_keep_their_shape_and_the_way_the_palm_faces(truth: FloatArray, lifted: LiftedPerson) -> None:
     away, angle = hand_errors(truth, lifted)
     assert np.median(away) < 0.018
