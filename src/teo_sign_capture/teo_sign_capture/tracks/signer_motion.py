@@ -28,7 +28,12 @@ from teo_sign_capture.tracks.skeleton_track import (
 from teo_signs.errors import LutError
 from teo_signs.sign_schema import Handedness
 from teo_skeleton_retriever.lifting.hand_axes import WRIST as HAND_WRIST
-from teo_skeleton_retriever.lifting.hand_axes import finger_bends, palm_axes, straight_bends
+from teo_skeleton_retriever.lifting.hand_axes import (
+    finger_bends,
+    palm_axes,
+    straight_bends,
+    with_last_joints,
+)
 
 # Rows of `head_shape`.
 _CHIN, _LIPS, _BROWS = BODY + 8, (BODY + 51, BODY + 57), (BODY + 21, BODY + 22)
@@ -279,7 +284,7 @@ def signer_arm(side: Side, joints: Array, keypoints: Array, straight: Array) -> 
         points=person_hand_points(keypoints),
         axes=axes,
         local=local,
-        bends=finger_bends(local) - straight,
+        bends=with_last_joints(finger_bends(local) - straight),
     )
 
 

@@ -8,9 +8,14 @@ from robot_person import keypoints
 
 from teo_description.hand_geometry import HandPoints, HandTable
 from teo_names import RIGHT_ARM, RIGHT_HAND, joint_limits
-from teo_sign_capture.retarget.hand_motion import follow_hand
+from teo_sign_capture.retarget.hand_motion import finger_flexions, follow_hand
 from teo_sign_capture.tracks.signer_motion import signer_arm
-from teo_skeleton_retriever.lifting.hand_axes import finger_bends, in_palm, straight_bends
+from teo_skeleton_retriever.lifting.hand_axes import (
+    finger_bends,
+    in_palm,
+    straight_bends,
+    with_last_joints,
+)
 
 JOINTS = RIGHT_ARM + RIGHT_HAND
 STRAIGHT = np.zeros((4, 3))
@@ -102,6 +107,18 @@ def test_bends_are_what_a_hand_was_made_with():
     bends = [(0, 0, 0), (30, 40, 20), (90, 100, 60), (120, 10, 5)]
     found = finger_bends(in_palm(person_hand(bends, 1)))[0]
     assert np.degrees(found) == pytest.approx(np.array(bends), abs=1e-6)
+
+
+def test_a_fist_whose_last_joints_a_detector_hardly_sees_is_closed(table):
+    """As MediaPipe saw rendered fists of joints bent by (81, 95, 60)."""
+    seen = person_hand([(79, 86, 33)] * 4)
+    arm = signer_arm("right", np.zeros((10, 3, 3)), seen, np.zeros((4, 3)))
+    assert np.degrees(arm.bends.sum(axis=2)) == pytest.approx(236.0, abs=15.0)
+    whole, as_seen = (finger_flexions(table, bends)[0] for bends in (arm.bends, finger_bends(in_palm(seen))))
+    true = finger_flexions(table, np.radians(np.tile([81.0, 95.0, 60.0], (1, 4, 1))))[0]
+    assert (np.abs(true - whole) < 0.6 * np.abs(true - as_seen)).all()
+    straight = np.radians([[[3.0, 2.0, 4.0], [40.0, 0.0, 0.0], [0.0, 30.0, 25.0], [-5.0, -3.0, -2.0]]])
+    assert with_last_joints(straight) == pytest.approx(straight)
 
 
 def test_a_thumb_on_the_index_touches_it_and_nothing_goes_through_anything(table):
