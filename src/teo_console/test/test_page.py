@@ -39,7 +39,7 @@ from teo_bringup.graph import Graph
 from teo_sim_driver.motion.path_time import DEFAULT_STOP_DECELERATION, DEFAULT_STOP_JERK
 
 WEB = Path(__file__).parents[1] / "web"
-HELD = 200.0  # [ms] for which a letter is lit at least
+STARVED = 1000.0  # [ms] without a picture: a quiet machine has 270 at most
 TABS = ("watch", "dictionary", "teach", "review", "practise")
 NewPage = Callable[..., Page]
 
@@ -108,8 +108,8 @@ def test_a_typed_sentence_is_signed_its_captions_in_order_while_the_joints_move(
         wait_until_ready(page)
     lit = page.evaluate("window.lit")
     assert lit == [gloss for gloss in glosses if gloss in lit]
-    # On a starved machine the page may draw nothing for longer than a letter is held.
-    assert len(lit) > 1 if page.evaluate("window.stood") > HELD else lit == glosses
+    # On a starved machine the page may draw nothing for longer than a letter takes.
+    assert len(lit) > 1 if page.evaluate("window.stood") > STARVED else lit == glosses
     page.screenshot(path=pictures / "watch_desktop.png")  # a page without a graphics card stands for a second
     assert poses.farthest() > 0.5
     expect(page.locator(".history li").filter(has_text="¿Eres Eva?")).to_have_count(1)

@@ -130,8 +130,9 @@ _HAND_COST = 4.0
 # Cost of a forearm against what the detector guesses of its depth, and of one that points away: hands mostly
 # sign in front of their elbows.
 _DETECTOR, _FORWARD = 0.5, 0.3
-# What is true of the detector's depth of an elbow before its shoulder, and what then remains [m].
-_TRUE, _GUESS = 0.32, 0.07
+# What is true of MediaPipe's depth of an elbow before its shoulder, and what then remains [m], in the takes
+# of `lifting.trunk`.
+_ELBOW_SHARE, _ELBOW_SIGMA = 0.32, 0.07
 # [m/s] Deviation of the speed of elbow and wrist along the view.
 _SPEED = 1.5
 # [m] What a depth trembles in any case.
@@ -204,8 +205,10 @@ def lift_arm(
         path = cheapest_path(costs[known], reached, 1.0 / (_JITTER + _SPEED * period) ** 2)
         places[known] = reached[np.arange(len(path)), path]
     sigma[:, 1] = np.hypot(sigma[:, 0], sigma[:, 1])
-    imagined = shoulder[:, 0] + _TRUE * guess[:, 0]
-    places[:, 0], sigma[:, 0] = _together(places[:, 0], sigma[:, 0], imagined, np.full(len(turn), _GUESS))
+    imagined = shoulder[:, 0] + _ELBOW_SHARE * guess[:, 0]
+    places[:, 0], sigma[:, 0] = _together(
+        places[:, 0], sigma[:, 0], imagined, np.full(len(turn), _ELBOW_SIGMA)
+    )
     usual, deviation = _usual_depth(across, lengths, wrist[:, 1])
     places[:, 1], sigma[:, 1] = _together(
         places[:, 1], sigma[:, 1], trunk.depth(usual, wrist[:, 0]), deviation / np.cos(turn)
@@ -282,7 +285,7 @@ def _costs(
     against = (
         np.where(np.isfinite(guess[:, 1]), np.sign(guess[:, 1]), 0.0)[:, None] * candidates[..., 1] < 0.0
     )
-    off = np.nan_to_num(candidates[..., 0] - _TRUE * guess[:, :1]) / _GUESS
+    off = np.nan_to_num(candidates[..., 0] - _ELBOW_SHARE * guess[:, :1]) / _ELBOW_SIGMA
     usual, deviation = _usual_depth(across, lengths, seen[:, 1, 1])
     unusual = (wrist - usual[:, None]) / deviation[:, None]
     costs: FloatArray = (

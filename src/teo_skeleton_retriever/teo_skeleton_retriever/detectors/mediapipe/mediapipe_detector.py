@@ -86,7 +86,10 @@ def person_from_holistic(landmarks: HolisticLandmarks, *, width: int, height: in
     return without_doubles(
         Person2D(
             body=_body(landmarks.pose, size),
-            body_depth=None if landmarks.pose is None else _body_depth(landmarks.pose, width),
+            # Depths are in the scale of x: they go the way of x.
+            body_depth=None
+            if landmarks.pose is None
+            else _body(landmarks.pose[:, [2, 1, 2, 3, 4]], size)[:, 0],
             left_hand=_part(landmarks.left_hand if left else None, size, landmarks.left_hand_score),
             right_hand=_part(landmarks.right_hand if right else None, size, landmarks.right_hand_score),
             face=_face(landmarks.face, size, landmarks.face_score),
@@ -106,16 +109,6 @@ def _body(pose: FloatArray | None, size: FloatArray) -> FloatArray:
     for name, (first, second) in _BODY_25_FROM_PAIRS.items():
         body[BODY_25.index[name]] = midpoint(body[BODY_25.index[first]], body[BODY_25.index[second]])
     return body
-
-
-def _body_depth(pose: FloatArray, width: int) -> FloatArray:
-    """Behind the hips [px]. Shape (25,)."""
-    depth = np.zeros(len(BODY_25))
-    for name, landmark in BODY_25_FROM_POSE.items():
-        depth[BODY_25.index[name]] = pose[landmark, 2] * width
-    for name, pair in _BODY_25_FROM_PAIRS.items():
-        depth[BODY_25.index[name]] = depth[[BODY_25.index[point] for point in pair]].mean()
-    return depth
 
 
 def _part(landmarks: FloatArray | None, size: FloatArray, confidence: float) -> FloatArray:
