@@ -8,7 +8,7 @@ setup(
     name=PACKAGE,
     version="0.2.0",
     packages=find_packages(exclude=["test", "test.*"]),
-    package_data={PACKAGE: ["*.pyi", "py.typed"]},
+    package_data={PACKAGE: ["*.pyi", "py.typed", "retarget/person_handshapes.tsv"]},
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
         (f"share/{PACKAGE}", ["package.xml"]),

@@ -8,7 +8,7 @@ setup(
     name=PACKAGE,
     version="0.2.0",
     packages=find_packages(exclude=["test", "test.*"]),
-    package_data={PACKAGE: ["*.pyi", "py.typed"]},
+    package_data={PACKAGE: ["*.pyi", "py.typed", "lifting/networks.safetensors"]},
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
         (f"share/{PACKAGE}", ["package.xml"]),
@@ -25,6 +25,7 @@ setup(
         "opencv-python-headless",
         "rich",
         "rosbags",
+        "safetensors",
         "scipy",
         "typer",
     ],

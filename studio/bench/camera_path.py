@@ -132,6 +132,7 @@ def _sampled(sign: Sign) -> RobotMotion:
         head_error=unknown[:, 0],
         trunk_error=unknown[:, 0],
         clearance=unknown[:, 0],
+        handshapes={},
     )
 
 

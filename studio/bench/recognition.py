@@ -21,7 +21,6 @@ from pathlib import Path
 import numpy as np
 from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]  # ships no types
 
-from accuracy.people import random_people
 from report import Figure, percentiles, share
 from signs.performed import EARLIER, Draw, performed, pictured
 from teo_common.arrays import Array
@@ -43,6 +42,7 @@ from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign import Sign
 from teo_synthetic_signer import Take, TakeOptions
 from teo_synthetic_signer.body.body_shapes import BODIES
+from teo_synthetic_signer.body.random_people import random_people
 from teo_synthetic_signer.errors import SyntheticError
 from teo_synthetic_signer.take.take_files import write_film
 

@@ -14,7 +14,6 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from accuracy.people import random_people
 from kept import kept_folder
 from teo_common.atomic_files import write_atomically
 from teo_skeleton_retriever.arrays import DepthArray
@@ -23,6 +22,7 @@ from teo_skeleton_retriever.detectors import make_detector
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 from teo_synthetic_signer import Truth, render_take
 from teo_synthetic_signer.body.body_shapes import BODIES
+from teo_synthetic_signer.body.random_people import random_people
 
 _STEP = 1e-4  # [m] of stored depth: a twentieth of the camera's own noise, up to 6.5 m
 

@@ -15,14 +15,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from accuracy.people import random_people
 from teo_common.arrays import Array
 from teo_sign_authoring.notation.performance import performance
 from teo_sign_authoring.notation.score_file import default_scores_directory, read_scores
 from teo_sign_authoring.notation.score_schema import Score
-from teo_sign_capture.tracks.skeleton_track import SHOULDER, Keypoints, SkeletonTrack, in_body_axes
+from teo_sign_capture.tracks.skeleton_track import HIP, SHOULDER, Keypoints, SkeletonTrack, in_body_axes
 from teo_skeleton_retriever.lifting.clip import Points, PoseClip
 from teo_synthetic_signer.body.body_shapes import BODIES
+from teo_synthetic_signer.body.random_people import random_people
 from teo_synthetic_signer.body.signer import Signer
 from teo_synthetic_signer.errors import SyntheticError
 from teo_synthetic_signer.script.keys import Key
@@ -36,6 +36,8 @@ _DEPTH_NOISE, _DEPTH_SHARE = 0.006, 0.8  # of guessed depths in a hand: [m], and
 # Of depths of a body as MediaPipe imagines them, by 42 takes of people who stood turned: what it makes of a
 # true metre, and how far off an arm [m] is for a second and a shoulder for a take.
 _IMAGINED, _ARM_OFF, _SHOULDER_OFF = 2.6, 0.07, 0.025
+# [m] Shoulders are seen so far above their joints, hips below: by MediaPipe in rendered people.
+_OFF_JOINTS = 0.015
 
 
 class Draw(NamedTuple):
@@ -164,6 +166,10 @@ def pictured(
     cosine, sine = math.cos(turn), math.sin(turn)
     turned = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
 
+    seen = track.body.positions.copy()
+    seen[:, list(SHOULDER.values()), 2] += _OFF_JOINTS
+    seen[:, list(HIP.values()), 2] -= _OFF_JOINTS
+
     def part(standing: Array, *, guessed: bool) -> Points:
         true = standing @ turned
         size = _PIXELS / (1.0 - true[..., 0] / distance)
@@ -173,7 +179,7 @@ def pictured(
         places[..., 0] = guess if guessed else np.nan
         return Points(places=places, confidence=np.ones(true.shape[:2]))
 
-    body = part(track.body.positions, guessed=False)
+    body = part(seen, guessed=False)
     if imagined:
         depths, seconds = (track.body.positions @ turned)[..., 0], int(len(track.times) / RATE) + 1
         off = random.normal(0.0, _ARM_OFF, (seconds, depths.shape[1])).repeat(int(RATE), axis=0)[

@@ -5,14 +5,14 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 
 import numpy as np
 
 from teo_common.arrays import Array
 from teo_description.hand_geometry import HandTable
-from teo_motion.collision.detours import detours, with_clear_thumbs, with_detour, with_thumbs_led
+from teo_motion.collision.detours import aside, detours, with_clear_thumbs, with_detour, with_thumbs_led
 from teo_motion.collision.motion_clearance import MotionClearance
 from teo_motion.sentence.composition import ARMS, Composition, Route
 from teo_motion.sentence.idle_limb_policy import settle_idle_limbs
@@ -26,6 +26,11 @@ _DETOURS_PER_TOKEN = 2
 
 # A way of a hand is halved so many times for its thumb [1]: a finger then folds by 10 deg between two points.
 _THUMB_ROUNDS = 3
+
+# [m] What all but touches is taken so far off the body before it goes on: a finger's breadth and a half.
+_OFF_BODY = 0.03
+# [rad] A joint turns by so much at most at once meanwhile, and so many times: 3 deg, 40 deg in all.
+_OFF_STEP, _OFF_STEPS = 0.05, 14
 
 # Postures that are looked at on a straight line between two others, before its motion is timed [1].
 _LINE_SAMPLES = 9
@@ -162,7 +167,7 @@ class CollisionAvoidance:
             # A sign that is swung into leaves the straight line to its next knot, where hands may be close:
             # it stands still at the knot first.
             ways: Iterable[Sequence[Array]] = (
-                detours(first, middle, second, self._limits) if route.token_at(step) is None else [(first,)]
+                self._ways(first, middle, second) if route.token_at(step) is None else [(first,)]
             )
             half_way = (first_step + last_step - 1) // 2
             for postures in ways:
@@ -180,6 +185,29 @@ class CollisionAvoidance:
             if by_rest and not goes_by_rest and route.token_at(step) is None:
                 return self._measured(self._timing.timed(with_detour(route, half_way, rest, self._arms)))
         raise self._collision(timed)
+
+    def _ways(self, first: Array, middle: Array, second: Array) -> Iterator[tuple[Array, ...]]:
+        """Detours between two postures; last those that take hands off the body first, then aside."""
+        yield from detours(first, middle, second, self._limits)
+        off, later = self._off_the_body(first), self._off_the_body(second)
+        yield off, aside(off, self._limits), later
+        yield off, aside(off, self._limits), aside(later, self._limits), later
+
+    def _off_the_body(self, posture: Array) -> Array:
+        """A posture in which parts that all but touch have moved apart, by the shortest way; or the same."""
+        assert self._motion_clearance is not None
+        off, near = posture, self._motion_clearance.distance(posture)
+        steps = np.zeros((len(self._arms), len(posture)))
+        steps[np.arange(len(self._arms)), self._arms] = _OFF_STEP
+        for _ in range(_OFF_STEPS):
+            if near >= _OFF_BODY:
+                break
+            gains = np.array([self._motion_clearance.distance(off + step) - near for step in steps])
+            if not gains.any():
+                break
+            off = np.clip(off + gains / np.abs(gains).max() @ steps, self._limits.lower, self._limits.upper)
+            near = self._motion_clearance.distance(off)
+        return off
 
     def _between_postures(self, route: Route, step: int) -> tuple[int, int]:
         """The waypoints around a step at which arms have places: between signs some are of hands alone."""

@@ -39,6 +39,9 @@ _WIDE_CHANGES: tuple[tuple[float, tuple[str, ...]], ...] = (
     (0.9, ("open", "forward", "sideways")),
 )
 
+# Lifts a hand over the hips whose elbow is behind the body [rad].
+_ASIDE = 1.2
+
 # Shares of the way to hands wide apart, which costs time and looks like flying.
 _PARTLY = (0.3, 0.5, 0.75)
 
@@ -78,6 +81,11 @@ def detours(first: Array, middle: Array, second: Array, limits: MotionLimits) ->
         for arm in (left, right):
             for later in (left, right):
                 yield _with_columns(first, arm, away), away, _with_columns(away, later, second)
+
+
+def aside(posture: Array, limits: MotionLimits) -> Array:
+    """A posture with both arms lifted far aside [rad]: elbows that were behind the body pass by its sides."""
+    return _changed(posture, _ASIDE, ("sideways",), limits)
 
 
 def _one_arm_first(

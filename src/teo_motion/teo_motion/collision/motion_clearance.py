@@ -79,6 +79,14 @@ class MotionClearance:
         """
         return bool(self._robot.contacts(self._robot.configurations(positions), distance))
 
+    def distance(self, positions: NDArray[np.float64]) -> float:
+        """Least distance between parts in a posture [m].
+
+        Args:
+            positions: Positions of the commanded joints [rad]. Shape (joints,).
+        """
+        return self._robot.clearance(self._robot.configurations(positions)).distance
+
     @property
     def head_links(self) -> tuple[str, ...]:
         """Links that the head's joints move."""

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import datetime
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from types import MappingProxyType
@@ -14,6 +14,7 @@ import numpy as np
 from msgspec.structs import replace as changed
 
 from teo_common.arrays import Array
+from teo_description.humanoid import Side
 from teo_description.robot import Robot
 from teo_motion.planner import DEFAULT_PERIOD, Planner
 from teo_motion.sentence.plan import Plan, sample_at
@@ -21,6 +22,7 @@ from teo_motion.sentence.signing_style import SigningStyle
 from teo_sign_capture.entries.gates import Verdict, accepted_standing, judge, objections
 from teo_sign_capture.entries.take import SignTake
 from teo_sign_capture.entries.take_combination import Combined, combine
+from teo_sign_capture.retarget.handshapes import HeldShape
 from teo_sign_capture.retarget.knots import (
     TOLERANCE,
     deviations,
@@ -172,6 +174,7 @@ def _provenance(robot: Robot, origin: Origin, takes: Sequence[SignTake], combine
     notes = (
         combined.reason if len(takes) > 1 else "",
         f"Lost and filled in: {filled}." if filled else "",
+        _said_shapes(take.motion.handshapes),
         f"The {held[0]} hand is held up, does nothing and is left out: --hands both." if held else "",
         f"A hand is up to {100.0 * away:.0f} cm from where it belongs." if away > _SAID_OUT_OF_REACH else "",
         origin.notes,
@@ -189,6 +192,16 @@ def _provenance(robot: Robot, origin: Origin, takes: Sequence[SignTake], combine
         description_hash=robot.humanoid.description_hash,
         notes=" ".join(filter(None, notes)),
     )
+
+
+def _said_shapes(handshapes: Mapping[Side, Sequence[HeldShape]]) -> str:
+    """Which shapes the hands hold, and how sure that is, in a sentence."""
+    hands = [
+        f"{side} {', then '.join(f'{shape} ({100.0 * chance:.0f} % sure)' for shape, chance in held)}"
+        for side, held in handshapes.items()
+        if held
+    ]
+    return f"Handshapes: {'; '.join(hands)}." if hands else ""
 
 
 def _quality(

@@ -151,7 +151,7 @@ def _find_skeletons(bag: Path, out: Path, on_progress: Progress | None, slop: fl
 _LONGEST_GAP = 2.5
 # Share of the time between two images within which a moment is that of the nearer one.
 _AT_IT = 0.05
-_POINTS = BODY + 2 * HAND
+POINTS = BODY + 2 * HAND
 # Who is farther away in the next image is somebody else, in sizes of a person [1]: raised arms move the
 # middle of a body by a fifth, and whoever stands beside is half a size away at least.
 _FARTHEST = 0.5
@@ -196,7 +196,7 @@ def _find_points(video: Path, out: Path, on_progress: Progress | None) -> tuple[
             for time, image, people in _detected(detector, video_images(video)):
                 times.append(time)
                 person = _followed(people, who)
-                found.append(_points(person) if person else np.zeros((_POINTS, 4)))
+                found.append(person_points(person) if person else np.zeros((POINTS, 4)))
                 who, several = person or who, several + (len(people) > 1)
                 size = (image.shape[1], image.shape[0])
                 if on_progress is not None:
@@ -266,9 +266,9 @@ def _detected(
             yield first()
 
 
-def _points(person: object) -> Array:
+def person_points(person: object) -> Array:
     """A person of the detector: x, y, depth, confidence of body, left and right hand. Shape (67, 4)."""
-    points = np.zeros((_POINTS, 4))
+    points = np.zeros((POINTS, 4))
     parts = (("body", 0, BODY), ("left_hand", BODY, HAND), ("right_hand", BODY + HAND, HAND))
     for part, start, count in parts:
         keypoints = getattr(person, part)

@@ -120,7 +120,7 @@ def _lowest(grid: Array, cost: Array) -> Array:
     return lowest
 
 
-_JOINT, _TIP = 3, 4
+_JOINT, THUMB_TIP = 3, 4
 # Rows of the 21 keypoints.
 _FINGER_TIPS = (8, 12, 16, 20)
 
@@ -182,7 +182,7 @@ def follow_thumb(table: HandTable, times: Array, fingers: Array, person: Array) 
     grid = table.thumb[::_EVERY, ::_EVERY].reshape(-1, 3, 3)
     points = table.finger_points(fingers)
     knuckle = table.fingers[0, 0, 0]
-    rough = _apart(person[:, _TIP] + knuckle, grid[:, 2])
+    rough = _apart(person[:, THUMB_TIP] + knuckle, grid[:, 2])
     rough += _JOINT_WEIGHT * _apart(person[:, _JOINT] + knuckle, grid[:, 1])
     chosen = np.argpartition(rough, _CANDIDATES, axis=1)[:, :_CANDIDATES]
     cost = np.take_along_axis(rough, chosen, axis=1) + _meeting(table.hand, grid[chosen], points, person)
@@ -210,7 +210,7 @@ def _meeting(hand: HandGeometry, thumbs: Array, fingers: Array, person: Array) -
         Shape (T, c).
     """
     tips = [_FINGER_TIPS[row] for row in finger_rows(hand)]
-    gaps = np.linalg.norm(person[:, tips] - person[:, _TIP, None], axis=2)
+    gaps = np.linalg.norm(person[:, tips] - person[:, THUMB_TIP, None], axis=2)
     nearness, wanted = thumb_contacts(hand, gaps)
     touch, box = _touching_axes(hand), hand.palm_box
     reached = np.linalg.norm(thumbs[:, :, None, 2] - fingers[:, None, :, 3], axis=3)

@@ -38,7 +38,8 @@ from teo_sign_capture.retarget.hand_goals import (
     hand_goals,
     pair_goals,
 )
-from teo_sign_capture.retarget.hand_motion import HandMotion, follow_hand
+from teo_sign_capture.retarget.hand_motion import follow_hand
+from teo_sign_capture.retarget.handshapes import HeldShape, ShapedHand, held_shapes, with_known_shapes
 from teo_sign_capture.retarget.head_motion import HeadMotion, follow_head, follow_trunk
 from teo_sign_capture.retarget.place_figures import place_figures
 from teo_sign_capture.signing_space import robot_hand_points
@@ -67,7 +68,7 @@ class FreeMotion:
     chain: ArmKinematics
     body: BodyMap
     head: HeadMotion
-    hands: dict[Side, HandMotion]
+    hands: dict[Side, ShapedHand]
     meant: dict[Side, Array]
     goals: dict[Side, HandGoals]
     problem: ArmProblem
@@ -89,7 +90,10 @@ def free_motion(robot: Robot, signer: SignerMotion) -> FreeMotion:
     chain, table = ArmKinematics(robot), hand_table(robot)
     head = follow_head(robot, signer.head, signer.person)
     body = BodyMap(robot, chain, signer.person)
-    hands = {side: follow_hand(table, signer.times, arm) for side, arm in signer.arms.items()}
+    hands = {
+        side: with_known_shapes(robot, signer.times, arm, follow_hand(table, signer.times, arm))
+        for side, arm in signer.arms.items()
+    }
     points = {side: robot_hand_points(table, hand.axes) for side, hand in hands.items()}
     wanted = {side: hand_goals(body, head, arm, points[side]) for side, arm in signer.arms.items()}
     goals = {side: found for side, (found, _) in wanted.items()}
@@ -130,6 +134,7 @@ class RobotMotion:
         head_error: Angle by which the head falls short of the person's. Shape (T,) [rad].
         trunk_error: The same of the trunk. Shape (T,) [rad].
         clearance: Smallest distance between parts of the robot. Shape (T,) [m].
+        handshapes: That each hand holds, one after the other.
     """
 
     times: Array
@@ -146,6 +151,7 @@ class RobotMotion:
     head_error: Array
     trunk_error: Array
     clearance: Array
+    handshapes: dict[Side, tuple[HeldShape, ...]]
 
 
 def retarget_motion(robot: Robot, signer: SignerMotion) -> RobotMotion:
@@ -177,6 +183,7 @@ def retarget_motion(robot: Robot, signer: SignerMotion) -> RobotMotion:
         head_error=free.head.error,
         trunk_error=trunk.error,
         clearance=clearance,
+        handshapes={side: held_shapes(signer.times, hand.chances) for side, hand in free.hands.items()},
     )
 
 

@@ -50,6 +50,7 @@ def motion(
         head_error=frame,
         trunk_error=frame,
         clearance=frame + 0.1,
+        handshapes={},
     )
 
 

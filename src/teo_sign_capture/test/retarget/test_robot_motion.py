@@ -29,6 +29,10 @@ def retargeted(robot, track, **options):
     return retarget_motion(robot, signer_motion(track, **options))
 
 
+# [s] From when to when each of three handshapes is held.
+HELD = [0.0, 0.45, 0.75, 1.25, 1.55, 2.0]
+
+
 @pytest.fixture(scope="module")
 def played():
     """What TEO does itself: both hands from before the chest to the face, not alike."""
@@ -36,15 +40,17 @@ def played():
         "right": [[-45, -12, 10, -80, 20, 0], [-74, 10, 11, -80, 48, 1], [-60, -20, 30, -60, 0, 10]],
         "left": [[-50, -10, 10, -75, 10, 5], [-55, -5, 30, -70, 20, 5], [-45, -12, 10, -80, 20, 0]],
     }
+    # Flat, a claw, thumb and little finger; open, the index alone, index and middle.
     hands = {
-        "right": [[10, -60, 10, 20, 30, 40], [20, -50, 40, 40, 40, 40], [10, -60, 70, 60, 50, 20]],
-        "left": [[10, -60, 7, 7, 7, 7], [10, -60, 7, 80, 80, 80], [10, -60, 40, 40, 40, 40]],
+        "right": [[0, -25, 7, 7, 7, 7], [10, -60, 48, 48, 48, 48], [0, -70, 80, 80, 80, 7]],
+        "left": [[0, -70, 7, 7, 7, 7], [45, -15, 7, 80, 80, 80], [70, -15, 7, 7, 80, 80]],
     }
     columns = []
     for side in ("right", "left"):
+        held = np.repeat(hands[side], 2, axis=0)
         arm, hand = (
-            np.radians([np.interp(TIMES, [0.0, 1.0, 2.0], knot) for knot in np.transpose(rows)]).T
-            for rows in (knots[side], hands[side])
+            np.radians([np.interp(TIMES, at, knot) for knot in np.transpose(rows)]).T
+            for at, rows in (([0.0, 1.0, 2.0], knots[side]), (HELD, held))
         )
         columns += [
             np.stack([mirrored(load_humanoid(), row) for row in arm]) if side == "left" else arm,
@@ -73,7 +79,10 @@ def test_teo_does_again_what_teo_has_done(robot, played, both):
     arms = [joint.endswith(("Shoulder", "Elbow", "Wrist")) for joint in JOINTS]
     fingers = [index for index, joint in enumerate(JOINTS) if "Finger" in joint and "Thumb" not in joint]
     assert np.degrees(np.abs(both.positions - played)[:, arms]).max() < 12.0
-    assert np.degrees(np.abs(both.positions - played)[:, fingers]).max() < 8.0
+    off = np.degrees(np.abs(both.positions - played)[:, fingers])
+    still = np.abs(TIMES[:, None] - np.mean(np.reshape(HELD[1:-1], (2, 2)), axis=1)).min(axis=1) > 0.35
+    assert off[still].max() < 8.0
+    assert off.max() < 25.0
     for side in ("right", "left"):
         wanted, found = (palms(robot, JOINTS, motion, side) for motion in (played, both.positions))
         assert 1000.0 * np.linalg.norm(wanted[:, :3, 3] - found[:, :3, 3], axis=1).max() < 20.0

@@ -4,7 +4,9 @@
 
 Across the view a point is good to a pixel or two. Its depth is what a detector guesses, or nothing at all.
 For each bone, the depth that fits its length and the guess best is taken; the guess says above all which
-way. The palm is then made rigid: one shape for all frames, laid into each (Kabsch 1976).
+way. The palm is then made rigid: one shape for all frames, laid into each (Kabsch 1976). Detectors show fists
+half open and thumbs beside where they are: of what they guess, a network that was shown rendered hands tells
+how thumb and fingers are bent.
 
 `fit_hand` of teo_sign_authoring is the thorough way, for the few hands of a letter: half a second each.
 """
@@ -19,7 +21,8 @@ from teo_skeleton_retriever.arrays import BoolArray, FloatArray
 from teo_skeleton_retriever.depth.hand_shape import CHILD, PARENT, turned
 from teo_skeleton_retriever.lifting.clip import Points
 from teo_skeleton_retriever.lifting.depth_smoothing import smooth_depth
-from teo_skeleton_retriever.lifting.hand_axes import INDEX, LITTLE, PALM, THUMB, WRIST, palm_axes
+from teo_skeleton_retriever.lifting.hand_axes import INDEX, LITTLE, PALM, THUMB, WRIST, in_palm, palm_axes
+from teo_skeleton_retriever.lifting.network import load_network
 
 _BONES = len(CHILD)
 # Makes a left hand a right one.
@@ -143,6 +146,54 @@ def lift_hand(hand: Points, *, scale: float, period: float, right: bool, forearm
     points[found] = lifted[kept] * (1.0 if right else _MIRROR)
     sigma[found] = np.sqrt((2.0 * _POINT_SIGMA**2 + spread[kept] ** 2) / 3.0)
     return LiftedHand(points, sigma)
+
+
+# Bones beyond the palm: all of the thumb's, three of each finger.
+FREE_BONES = np.array([bone for bone in range(_BONES) if bone < 4 or bone % 4])
+
+
+# Three axes of the palm, too.
+_HAND_INPUTS = 3 * (len(FREE_BONES) + 3)
+
+
+def free_bones(hand: FloatArray) -> FloatArray:
+    """Directions of the bones beyond the palm, in the palm's axes. Shapes (n, 21, 3), (n, 16, 3)."""
+    bones = _bones(in_palm(hand))[:, FREE_BONES]
+    ways: FloatArray = bones / np.maximum(np.linalg.norm(bones, axis=2, keepdims=True), 1e-9)
+    return ways
+
+
+def hand_inputs(hand: FloatArray) -> FloatArray:
+    """What the network sees of a right hand: how it is bent, and how it is turned to the camera.
+
+    Args:
+        hand: The points [m]. Shape (n, 21, 3).
+
+    Returns:
+        Shape (n, 57).
+    """
+    return np.concatenate([free_bones(hand), palm_axes(hand)], axis=1).reshape(len(hand), _HAND_INPUTS)
+
+
+def with_learned_fingers(points: FloatArray, *, right: bool) -> FloatArray:
+    """A hand whose thumb and fingers are bent as people's are who look so to a detector that guesses depths.
+
+    Args:
+        points: As they were lifted; NaN where not seen [m]. Shape (T, 21, 3).
+        right: Whether it is a right hand.
+    """
+    seen = np.isfinite(points).all(axis=(1, 2))
+    hand = points[seen] * (1.0 if right else _MIRROR)
+    changes = load_network("hands")(hand_inputs(hand))
+    ways = free_bones(hand) + changes.reshape(len(hand), len(FREE_BONES), 3)
+    ways /= np.maximum(np.linalg.norm(ways, axis=2, keepdims=True), 1e-9)
+    lengths = np.linalg.norm(_bones(hand), axis=2)[:, FREE_BONES, None]
+    bones = lengths * np.einsum("tij,tkj->tki", palm_axes(hand), ways)
+    for at, bone in enumerate(FREE_BONES.tolist()):
+        hand[:, CHILD[bone]] = hand[:, PARENT[bone]] + bones[:, at]
+    bent = points.copy()
+    bent[seen] = hand * (1.0 if right else _MIRROR)
+    return bent
 
 
 def _bone_lengths(places: FloatArray, scale: float) -> FloatArray:

@@ -14,8 +14,9 @@ joints bend one by one, and fingers spread: handshapes are those of `teo_synthet
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -126,7 +127,7 @@ _SHARES = (1.0, 1.0, 0.5)
 _FAR_BENT = 50.0
 
 
-def _person_shape(name: str, bent: dict[str, float]) -> str | dict[str, Any]:
+def person_shape(name: str, bent: Mapping[str, float] = MappingProxyType({})) -> str | dict[str, Any]:
     """A handshape as scripts of the synthetic signer write it: its name, or in full where fingers are bent.
 
     Args:
@@ -211,7 +212,7 @@ class _Hand:
             "point": _POINTS.get(self.part, self.part),
             "fingers": _forwards_outwards_up(fingers),
             "palm": _forwards_outwards_up(palm),
-            "shape": _person_shape(self.shape, bent or {}),
+            "shape": person_shape(self.shape, bent or {}),
         }
         return written | ({"swing": swing} if swing else {})
 

@@ -10,7 +10,7 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
 
 from teo_description.humanoid import Side
-from teo_sign_authoring.notation.handshapes import written_shape
+from teo_sign_capture.retarget.handshapes import written_shape
 from teo_sign_capture.signing_space import OTHER_HAND, direction, displacement, split_place
 from teo_signs.sign_schema import SOURCE_STANDING_MEANING, SourceStanding, check_gloss
 

@@ -12,8 +12,8 @@ import numpy as np
 from teo_common.arrays import Array
 from teo_description.humanoid import Side
 from teo_description.robot import Robot
-from teo_sign_authoring.notation.handshapes import handshape
 from teo_sign_authoring.notation.score_schema import Circle, HandScore, Part, Score, Step, Wiggle, flattened
+from teo_sign_capture.retarget.handshapes import handshape
 from teo_sign_capture.signing_space import OTHER_HAND, direction, displacement, find_place, split_place
 
 # [m] A hand that is farther than this from its place on the body is before it, not on it: its orientation

@@ -15,10 +15,10 @@ from teo_common.arrays import Array
 from teo_description.hand_geometry import HandTable, hand_table
 from teo_description.humanoid import Humanoid, Side
 from teo_description.robot import Robot
-from teo_sign_authoring.notation.handshapes import follow_robot_hand
 from teo_sign_authoring.notation.score_schema import Hands
 from teo_sign_authoring.notation.targets import HandTarget, Posture
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, mirrored, mirrored_hand
+from teo_sign_capture.retarget.handshapes import follow_robot_hand
 from teo_sign_capture.signing_space import MIRROR, find_place
 from teo_signs.sign import Sign
 

@@ -15,9 +15,9 @@ from teo_common.arrays import Array
 from teo_description.robot import Robot
 from teo_lut_executor.cli.lut import app
 from teo_motion.sentence.posture_choice import postures_of
-from teo_sign_authoring.notation.handshapes import handshape
 from teo_sign_authoring.transfer.entry_postures import BodyToBody
 from teo_sign_authoring.transfer.language_signs import LanguageSigns
+from teo_sign_capture.retarget.handshapes import handshape
 from teo_sign_languages import load_language
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import Lut, save_sign

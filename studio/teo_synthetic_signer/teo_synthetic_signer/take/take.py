@@ -126,6 +126,7 @@ class TakeOptions:
         camera_height: Above the floor [m].
         camera_pitch: Of the camera downwards [rad]; None looks at the chest.
         camera_roll: Of the camera about its view, clockwise as it looks [rad].
+        camera_side: Of the camera about the person, to the person's left [rad].
         light: One of `LIGHTS`.
         companions: Who else is there.
         width: Of the images [px].
@@ -143,6 +144,7 @@ class TakeOptions:
     camera_height: float = 1.3
     camera_pitch: float | None = None
     camera_roll: float = 0.0
+    camera_side: float = 0.0
     light: str = "room"
     companions: tuple[Companion, ...] = ()
     width: int = 640
@@ -164,8 +166,10 @@ class TakeOptions:
             )
         if self.camera_pitch is not None and not abs(self.camera_pitch) < math.pi / 2.0:
             raise SyntheticError("bad_camera_pitch", f"expected less than pi/2 rad, got {self.camera_pitch}")
-        if not abs(self.camera_roll) <= math.pi:
-            raise SyntheticError("bad_camera_roll", f"expected -pi to pi rad, got {self.camera_roll}")
+        for name in ("roll", "side"):
+            angle = getattr(self, f"camera_{name}")
+            if not abs(angle) <= math.pi:
+                raise SyntheticError(f"bad_camera_{name}", f"expected -pi to pi rad, got {angle}")
 
 
 class _Actor:
@@ -309,7 +313,10 @@ class Take:
         down = np.cross(ahead, right)
         cosine, sine = math.cos(options.camera_roll), math.sin(options.camera_roll)
         right, down = cosine * right + sine * down, cosine * down - sine * right
-        return np.stack([right, down, ahead]), np.array([options.distance, 0.0, options.camera_height])
+        cosine, sine = math.cos(options.camera_side), math.sin(options.camera_side)
+        about = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+        place = about @ (options.distance, 0.0, options.camera_height)
+        return np.stack([right, down, ahead]) @ about.T, place
 
     def _seen(self, points: FloatArray) -> FloatArray:
         seen: FloatArray = (points - self._position) @ self._rotation.T
