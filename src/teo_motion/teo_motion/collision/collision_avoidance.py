@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import pairwise
+from itertools import chain, pairwise
 
 import numpy as np
 
@@ -164,11 +164,15 @@ class CollisionAvoidance:
         if self._is_clear_at(plan, ends):
             begin, end = ends.tolist()
             first, middle, second = (plan.at(moment)[0] for moment in (begin, (begin + end) / 2.0, end))
+            rest = self._limits.humanoid.ready
+            of_rest = any(np.allclose(row[self._arms], rest[self._arms]) for row in (first, second))
             # A sign that is swung into leaves the straight line to its next knot, where hands may be close:
             # it stands still at the knot first.
-            ways: Iterable[Sequence[Array]] = (
-                self._ways(first, middle, second) if route.token_at(step) is None else [(first,)]
-            )
+            ways: Iterable[Sequence[Array]] = [(first,)]
+            if route.token_at(step) is None:
+                ways = detours(first, middle, second, self._limits)
+                if of_rest:  # between two signs arms may go by way of it
+                    ways = chain(ways, self._off_the_body_and_aside(first, second))
             half_way = (first_step + last_step - 1) // 2
             for postures in ways:
                 if self._touches([first, *postures, second]):  # which is known before its motion is timed
@@ -180,15 +184,12 @@ class CollisionAvoidance:
                 round_here = range(first_step, last_step + len(postures))
                 if self._is_clear(found.plan) or _nearest_step(found) not in round_here:
                     return found
-            rest = self._limits.humanoid.ready
-            goes_by_rest = any(np.allclose(row[self._arms], rest[self._arms]) for row in (first, second))
-            if by_rest and not goes_by_rest and route.token_at(step) is None:
+            if by_rest and not of_rest and route.token_at(step) is None:
                 return self._measured(self._timing.timed(with_detour(route, half_way, rest, self._arms)))
         raise self._collision(timed)
 
-    def _ways(self, first: Array, middle: Array, second: Array) -> Iterator[tuple[Array, ...]]:
-        """Detours between two postures; last those that take hands off the body first, then aside."""
-        yield from detours(first, middle, second, self._limits)
+    def _off_the_body_and_aside(self, first: Array, second: Array) -> Iterator[tuple[Array, ...]]:
+        """Ways between two postures on which hands leave the body first, then go round it."""
         off, later = self._off_the_body(first), self._off_the_body(second)
         yield off, aside(off, self._limits), later
         yield off, aside(off, self._limits), aside(later, self._limits), later

@@ -173,7 +173,9 @@ def _captured(robot: Robot, job: CaptureJob, settings: Settings, on_progress: _S
             )
             warnings += found
             tell(f"bringing {recording.name} onto {robot.humanoid.name.upper()}", number, len(recordings))
-            takes.append(capture_take(robot, track, cut=job.cut, handedness=job.handedness))
+            takes.append(
+                capture_take(robot, track, cut=job.cut, handedness=job.handedness, kind=settings.kind)
+            )
         except LutError as error:
             failed.append(error)
     if not takes:

@@ -16,7 +16,7 @@ from teo_sign_capture.tracks.signer_motion import measure_person, signer_motion
 from teo_sign_capture.tracks.skeleton_track import WRIST, SkeletonTrack
 from teo_sign_capture.tracks.smoothing import Gap, runs, seen, smooth_track
 from teo_signs.errors import LutError
-from teo_signs.sign_schema import Handedness
+from teo_signs.sign_schema import Handedness, Kind
 
 # [s] Length of the recording before and after a cut in which it is seen where the hands rest, and from which
 # keypoints lost at its edges are filled in: a sign's way up takes less than a second.
@@ -73,7 +73,12 @@ class SignTake:
 
 
 def capture_take(
-    robot: Robot, track: SkeletonTrack, *, cut: Cut | None = None, handedness: Handedness | None = None
+    robot: Robot,
+    track: SkeletonTrack,
+    *,
+    cut: Cut | None = None,
+    handedness: Handedness | None = None,
+    kind: Kind = "lexical",
 ) -> SignTake:
     """Find the sign in a recording and bring it onto TEO.
 
@@ -82,6 +87,7 @@ def capture_take(
         track: The person, as recorded.
         cut: The part to look at; all of it without.
         handedness: Hands that make the sign; those that leave rest without.
+        kind: Of the sign.
 
     Raises:
         LutError: "outside_recording", "no_motion", "several_signs", "too_long", "few_frames", "hand_lost" or
@@ -113,7 +119,7 @@ def capture_take(
         span=_moved(span, offset),
         has_rest=not (span.cut_start and span.cut_end) or cut != Cut(),
         track=stroke,
-        motion=retarget_motion(robot, signer),
+        motion=retarget_motion(robot, signer, spelled=kind == "letter"),
         gaps=tuple(replace(gap, start=gap.start + offset, end=gap.end + offset) for gap in gaps),
         lost=_lost(raw, span),
         smoothing=_difference(raw, smoothed.track, span),

@@ -85,15 +85,16 @@ class FreeMotion:
         return self.chain.poses(self.arm(side, arms))
 
 
-def free_motion(robot: Robot, signer: SignerMotion) -> FreeMotion:
-    """Find the arms that come nearest to a person's, collisions left aside."""
+def free_motion(robot: Robot, signer: SignerMotion, *, spelled: bool = False) -> FreeMotion:
+    """Find the arms that come nearest to a person's, collisions left aside; see `retarget_motion`."""
     chain, table = ArmKinematics(robot), hand_table(robot)
     head = follow_head(robot, signer.head, signer.person)
     body = BodyMap(robot, chain, signer.person)
-    hands = {
-        side: with_known_shapes(robot, signer.times, arm, follow_hand(table, signer.times, arm))
-        for side, arm in signer.arms.items()
-    }
+    hands = {}
+    for side, arm in signer.arms.items():
+        seen = follow_hand(table, signer.times, arm)
+        shaped = with_known_shapes(robot, signer.times, arm, seen)
+        hands[side] = shaped._replace(axes=seen.axes) if spelled else shaped
     points = {side: robot_hand_points(table, hand.axes) for side, hand in hands.items()}
     wanted = {side: hand_goals(body, head, arm, points[side]) for side, arm in signer.arms.items()}
     goals = {side: found for side, (found, _) in wanted.items()}
@@ -154,13 +155,18 @@ class RobotMotion:
     handshapes: dict[Side, tuple[HeldShape, ...]]
 
 
-def retarget_motion(robot: Robot, signer: SignerMotion) -> RobotMotion:
+def retarget_motion(robot: Robot, signer: SignerMotion, *, spelled: bool = False) -> RobotMotion:
     """Bring a person's motion onto a robot.
+
+    Args:
+        robot: The robot.
+        signer: The person.
+        spelled: Whether it is a letter. Letters differ by less than handshapes do: hands stay as they are seen.
 
     Raises:
         LutError: "self_collision" if the robot cannot take a posture without touching itself.
     """
-    free = free_motion(robot, signer)
+    free = free_motion(robot, signer, spelled=spelled)
     humanoid = robot.humanoid
     trunk = follow_trunk(robot, signer.trunk)
     others: dict[str, Array] = {}

@@ -63,5 +63,3 @@ def _person(number: int, scores: list[Score], folder: Path) -> RenderedPerson | 
 def main() -> None:
     """Entry point."""
     typer.run(train_lifting)
-
-
