@@ -161,7 +161,8 @@ def retarget_motion(robot: Robot, signer: SignerMotion, *, spelled: bool = False
     Args:
         robot: The robot.
         signer: The person.
-        spelled: Whether it is a letter. Letters differ by less than handshapes do: hands stay as they are seen.
+        spelled: Whether it is a letter, which others differ from by less than handshapes do: hands stay as
+            they are seen.
 
     Raises:
         LutError: "self_collision" if the robot cannot take a posture without touching itself.
