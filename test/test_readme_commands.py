@@ -45,7 +45,7 @@ NOT_RUN = {
     r"VIEW=1": "waits for a person at the page; its parts are tested with a browser",
     r"ros2 launch": "needs ROS 2's launch, which is not among the wheels",
     r"--camera|lut record|capture_node": "needs a camera and a person before it",
-    r"generate_corpus|train |evaluate |compare |reproduce_paper|constructions\(\)": "takes minutes to hours",
+    r"generate_corpus|train |train_lifting|evaluate |compare |reproduce_paper|constructions\(\)": "takes minutes to hours",
     r"capture_(letters|numbers|demonstration)(?!.*--only)|ease_letters|lut ease": "takes minutes",
     r"render --all": "draws hundreds of signs",
     r"plant:=mujoco": "needs the package for physics, which is installed apart",

@@ -44,6 +44,7 @@ setup(
             "synthesize = teo_common.installed_packages:main",
             "sensor_study = teo_common.installed_packages:main",
             "retriever_node = teo_skeleton_retriever.node.retriever_node:main",
+            "train_lifting = teo_common.installed_packages:main",
         ],
         "teo_skeleton_retriever.detectors": [
             f"mediapipe = {PACKAGE}.detectors.mediapipe.mediapipe_detector:MediaPipeDetector",
