@@ -3,7 +3,8 @@
 """How well a clip that one camera took is lifted into space, against people who are known exactly.
 
 The person's size is not in the picture: what is left once it is put right is given beside. Rendered people,
-none of whom was shown to the networks, are seen by MediaPipe, and made as large as lifting takes everybody for.
+none of whom was shown to the networks, are seen by MediaPipe, and count as large as lifting takes everybody
+for.
 """
 
 from __future__ import annotations
