@@ -17,7 +17,8 @@ from teo_bringup.network import main
 
 PAGE = Path(__file__).parents[3] / "docs" / "machines.md"
 PATIENCE = 120.0  # [s] for Python processes to start and find each other on a loaded machine
-# Says its own name until it has heard another's, and then for a second more, so that the other hears it too.
+# Says its own name, and whether it has heard another's, until that has heard it too; then for a second more,
+# so that the other knows.
 TALKER = """
 import sys, time
 import rclpy
@@ -31,13 +32,21 @@ class Talker(Node):
         super().__init__(sys.argv[1])
         self.texts = self.create_publisher(String, "names", 10)
         self.create_subscription(String, "names", self.hear, 10)
-        self.create_timer(0.1, lambda: self.texts.publish(String(data=sys.argv[1])))
-        self.heard = False
+        self.create_timer(0.1, self.say)
+        self.heard = self.ends = False
+
+    def say(self):
+        self.texts.publish(String(data=sys.argv[1] + (" heard" if self.heard else "")))
 
     def hear(self, message):
-        if message.data != sys.argv[1] and not self.heard:
+        name, *heard = message.data.split()
+        if name == sys.argv[1]:
+            return
+        if not self.heard:
             self.heard = True
-            print("hears", message.data, "udp", sorted(own_sockets().udp), flush=True)
+            print("hears", name, "udp", sorted(own_sockets().udp), flush=True)
+        if heard and not self.ends:
+            self.ends = True
             self.create_timer(1.0, rclpy.shutdown)
 
 run_node(Talker, None)
