@@ -130,7 +130,7 @@ class HeadOverlay:
                 # No further than the lean itself, which is as far as the neck should go.
                 shifts[index] = math.copysign(max(abs(angle) - max(float(own.max()), 0.0), 0.0), angle)
         leaning = Leaning(neck.splicer, functools.partial(self._least_time, column))
-        lean = leaning.leaned(motions[column], angle, during, times, shifts)
+        lean = leaning.leaned(motions[column], angle, during, times, shifts, kept.begin)
         if lean is None:
             return []
         motions[column] = lean.motion
@@ -238,9 +238,11 @@ class _KeptTimes:
         Attributes:
             times: For each axis, from and to [s], in order.
             fixed: Times in which no joint is changed at all, not even by a lean.
+            begin: Until when all joints stand still [s].
         """
-        # The plan's points end at rest only where its motion stands still for the last period.
-        self._duration = plan.duration - float(plan.times[-1] - plan.times[-2])
+        # The plan's points begin and end at rest only where its motion stands still for a period.
+        period = float(plan.times[-1] - plan.times[-2])
+        self.begin, self._duration = period, plan.duration - period
         self._tokens = [(timing.start, timing.start + timing.duration) for timing in plan.timings]
         self.times: dict[_Axis, list[Times]] = {axis: [] for axis in necks}
         self.fixed: set[Times] = set()
@@ -265,7 +267,7 @@ class _KeptTimes:
 
     def gaps(self, axis: _Axis) -> list[Times]:
         """Times in which a joint is free for gestures, in order."""
-        edges = [0.0, *(edge for times in self.times[axis] for edge in times), self._duration]
+        edges = [self.begin, *(edge for times in self.times[axis] for edge in times), self._duration]
         return [(begin, end) for begin, end in zip(edges[::2], edges[1::2], strict=True) if begin < end]
 
 

@@ -218,6 +218,7 @@ class Leaning:
         during: Times,
         kept: Sequence[Times],
         shifts: Sequence[float],
+        begin: float = 0.0,
     ) -> Lean | None:
         """The motion with a lean; None if there is no time for any.
 
@@ -228,14 +229,15 @@ class Leaning:
             kept: When the joint is to move as it does, in order.
             shifts: By how much it may be turned then [rad], between 0 and `angle` or 0. Neighbours without
                 time for the way from one to the other are turned by the lesser.
+            begin: Until when the joint stands still [s].
         """
         levels = [0.0, *shifts, 0.0]
-        gaps = list(pairwise([0.0, *(time for times in kept for time in times), motion.duration]))[::2]
+        gaps = list(pairwise([begin, *(time for times in kept for time in times), motion.duration]))[::2]
         while True:
             leaned = motion
-            for (begin, end), level in zip(kept, levels[1:-1], strict=True):
+            for times, level in zip(kept, levels[1:-1], strict=True):
                 if level:
-                    leaned = shifted(leaned, begin, end, level)
+                    leaned = shifted(leaned, *times, level)
             seen = [time for times, level in zip(kept, levels[1:-1], strict=True) if level for time in times]
             for index, gap in enumerate(gaps):
                 found = self._across(leaned, angle, during, gap, (levels[index], levels[index + 1]))

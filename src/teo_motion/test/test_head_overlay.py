@@ -155,6 +155,14 @@ def test_an_exclamation_ends_with_a_nod(lut: Lut) -> None:
     assert (during(plan, plan.timings[0])[:, 1] == 0.0).all()
 
 
+@pytest.mark.parametrize("form", FORMS, ids=str)
+def test_a_gesture_begins_from_rest_however_little_time_there_is(lut: Lut, form: SentenceForm) -> None:
+    """What a driver is sent begins where the robot stands, and no faster than its limits let it."""
+    plan = Planner(lut).plan([Token(gloss="CORAZÓN")], form=form)
+    assert (plan.velocities[0] == 0.0).all()
+    assert (plan.accelerations[0] == 0.0).all()
+
+
 def test_half_the_strength_is_half_the_way(lut: Lut) -> None:
     planner = Planner(lut, style=SigningStyle(head_motion=0.5))
     plan = planner.plan(parse_printed("YO CASA"), form=NEGATED)
