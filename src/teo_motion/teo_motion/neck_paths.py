@@ -235,9 +235,9 @@ class Leaning:
         gaps = list(pairwise([begin, *(time for times in kept for time in times), motion.duration]))[::2]
         while True:
             leaned = motion
-            for times, level in zip(kept, levels[1:-1], strict=True):
+            for (start, end), level in zip(kept, levels[1:-1], strict=True):
                 if level:
-                    leaned = shifted(leaned, *times, level)
+                    leaned = shifted(leaned, start, end, level)
             seen = [time for times, level in zip(kept, levels[1:-1], strict=True) if level for time in times]
             for index, gap in enumerate(gaps):
                 found = self._across(leaned, angle, during, gap, (levels[index], levels[index + 1]))
