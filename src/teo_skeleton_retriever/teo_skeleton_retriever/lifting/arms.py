@@ -48,13 +48,11 @@ class BodyMeasure:
         scale: Metres for a unit of the clip.
         upper_arm: Shoulder to elbow [m].
         forearm: Elbow to wrist [m].
-        seen: Whether upper arm and forearm were seen at their full length, or follow from the shoulders.
     """
 
     scale: float
     upper_arm: float
     forearm: float
-    seen: tuple[bool, bool]
 
 
 def measure_body(body: Points, turn: FloatArray) -> BodyMeasure:
@@ -66,19 +64,16 @@ def measure_body(body: Points, turn: FloatArray) -> BodyMeasure:
     """
     both = [(SHOULDER["left"], SHOULDER["right"])]
     shoulders = float(np.percentile(_lengths(body, both, turn), _SHOULDERS_PERCENTILE))
-    limbs, seen = [], []
+    limbs = []
     for usual, start, end in ((_UPPER_ARM, SHOULDER, ELBOW), (_FOREARM, ELBOW, WRIST)):
         expected = usual / _SHOULDERS * shoulders
         lengths = _lengths(body, [(start[side], end[side]) for side in SIDES])
         longest = float(np.percentile(lengths, _LIMB_PERCENTILE)) if lengths.size else 0.0
         full = _FULL_LENGTH[0] <= longest / expected <= _FULL_LENGTH[1]
         limbs.append(_TRUST * longest + (1.0 - _TRUST) * expected if full else expected)
-        seen.append(full)
     # The more of a person was measured the less one odd proportion matters.
     scale = ADULT / (shoulders + sum(limbs))
-    return BodyMeasure(
-        scale=scale, upper_arm=scale * limbs[0], forearm=scale * limbs[1], seen=(seen[0], seen[1])
-    )
+    return BodyMeasure(scale=scale, upper_arm=scale * limbs[0], forearm=scale * limbs[1])
 
 
 def _lengths(body: Points, pairs: list[tuple[int, int]], turn: FloatArray | None = None) -> FloatArray:
@@ -179,13 +174,12 @@ class LiftedArm(NamedTuple):
     """Likewise. Shape (T, 2)."""
 
 
-def lift_arm(arm: SeenArm, confidence: FloatArray, measure: BodyMeasure, period: float) -> LiftedArm:
+def lift_arm(arm: SeenArm, confidence: FloatArray, period: float) -> LiftedArm:
     """Find the depth of one arm.
 
     Args:
         arm: What is seen of it.
         confidence: Of elbow and wrist, 0 to 1. Shape (T, 2).
-        measure: Lengths of the arm.
         period: Between two frames [s].
     """
     point = _POINT_SIGMA[1] + (_POINT_SIGMA[0] - _POINT_SIGMA[1]) * np.sqrt(confidence)
@@ -194,7 +188,7 @@ def lift_arm(arm: SeenArm, confidence: FloatArray, measure: BodyMeasure, period:
     least = _least_depth(_aside(places[:, 1], arm.wrist[:, 0], arm.turn), arm.wrist[:, 1])
     places[:, 1] = np.maximum(places[:, 1], _depth(least, arm.wrist[:, 0], arm.turn))
     places = smooth_depth(places, sigma, period=period, acceleration=_ACCELERATION)
-    elbow, upper = arm.shoulder[:, 0], measure.upper_arm
+    elbow, upper = arm.shoulder[:, 0], arm.lengths[0]
     return LiftedArm(
         elbow=np.clip(places[:, 0], elbow - upper, elbow + upper),
         wrist=places[:, 1],

@@ -4,10 +4,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 from teo_skeleton_retriever.arrays import BoolArray, FloatArray
-from teo_skeleton_retriever.layouts.person_layout import ROW
+from teo_skeleton_retriever.layouts.person_layout import BODY, HANDS, ROW
 
 SIDES = ("right", "left")
 # Rows of BODY_25, by side.
@@ -53,6 +54,15 @@ class PoseClip:
     left_hand: Points
     right_hand: Points
     source: str
+
+    def with_parts(self, part: Callable[[Points, slice], Points]) -> PoseClip:
+        """The clip with other points, each part by its own and its rows in `layouts.person_layout`."""
+        return replace(
+            self,
+            body=part(self.body, BODY),
+            left_hand=part(self.left_hand, HANDS["L"]),
+            right_hand=part(self.right_hand, HANDS["R"]),
+        )
 
     def hand(self, side: str) -> Points:
         """The hand of a side, "right" or "left"."""

@@ -93,12 +93,7 @@ def drawn_in(clip: PoseClip, positions: FloatArray) -> PoseClip:
         places[..., 1:] = middle + (places[..., 1:] - middle) * (1.0 - forward / CAMERA)
         return replace(points, places=places)
 
-    return replace(
-        clip,
-        body=part(clip.body, BODY),
-        left_hand=part(clip.left_hand, HANDS["L"]),
-        right_hand=part(clip.right_hand, HANDS["R"]),
-    )
+    return clip.with_parts(part)
 
 
 class SeenPerson:
@@ -188,9 +183,8 @@ class SeenPerson:
     def _lifted_side(self, side: str, places: FloatArray, sigma: FloatArray) -> LiftedHand:
         """Fill in depths and deviations of elbow and wrist of one side; the hand about its wrist."""
         elbow, wrist = ELBOW[side], WRIST[side]
-        arm = lift_arm(
-            self.arm(side), self._clip.body.confidence[:, [elbow, wrist]], self.measure, 1.0 / self._clip.rate
-        )
+        confidence = self._clip.body.confidence[:, [elbow, wrist]]
+        arm = lift_arm(self.arm(side), confidence, 1.0 / self._clip.rate)
         for point, depth, deviation in (
             (elbow, arm.elbow, arm.elbow_sigma),
             (wrist, arm.wrist, arm.wrist_sigma),

@@ -101,12 +101,7 @@ def _exact(clip: PoseClip, truth: Array, random: np.random.Generator) -> PoseCli
         places[~points.seen] = np.nan
         return replace(points, places=places)
 
-    return replace(
-        clip,
-        body=part(clip.body, BODY),
-        left_hand=part(clip.left_hand, HANDS["L"]),
-        right_hand=part(clip.right_hand, HANDS["R"]),
-    )
+    return clip.with_parts(part)
 
 
 def _hidden(arm: SeenArm, random: np.random.Generator) -> SeenArm:
