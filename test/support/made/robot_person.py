@@ -102,3 +102,16 @@ def goals_of(chain, arms, *, local=(0.0, 0.0, 0.0), shift=(0.0, 0.0, 0.0), conta
         upper_arm=upper / np.linalg.norm(upper, axis=1, keepdims=True),
         fore_arm=fore / np.linalg.norm(fore, axis=1, keepdims=True),
     )
+
+
+def bent_hand(fingers, length=0.09):
+    """A right hand without its thumb, index to little finger bent so, joint by joint [deg]. (21, 3) [m]."""
+    points = np.zeros((21, 3))
+    for finger, joints in enumerate(fingers):
+        knuckle = 5 + 4 * finger
+        points[knuckle] = (0.09, -0.03 + 0.02 * finger, 0.0)
+        total = np.cumsum(np.radians(joints))
+        for bone, (share, angle) in enumerate(zip((0.5, 0.3, 0.2), total, strict=True)):
+            way = length * share * np.array([np.cos(angle), 0.0, np.sin(angle)])
+            points[knuckle + bone + 1] = points[knuckle + bone] + way
+    return points

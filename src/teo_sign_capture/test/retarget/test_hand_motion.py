@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from robot_person import keypoints
+from robot_person import bent_hand, keypoints
 
 from teo_description.hand_geometry import HandPoints, HandTable
 from teo_names import RIGHT_ARM, RIGHT_HAND, joint_limits
@@ -28,15 +28,8 @@ def table(robot):
 
 def person_hand(bends, frames=10, length=0.09):
     """A right hand whose fingers, from index to little finger, are bent so, joint by joint [deg]."""
-    points = np.zeros((21, 3))
+    points = bent_hand(bends, length)
     points[1:5] = [(0.02, -0.03, 0.0), (0.05, -0.05, 0.0), (0.08, -0.06, 0.0), (0.10, -0.07, 0.0)]
-    for finger, joints in enumerate(bends):
-        knuckle = 5 + 4 * finger
-        points[knuckle] = (0.09, -0.03 + 0.02 * finger, 0.0)
-        total = np.cumsum(np.radians(joints))
-        for bone, (share, angle) in enumerate(zip((0.5, 0.3, 0.2), total, strict=True)):
-            way = length * share * np.array([np.cos(angle), 0.0, np.sin(angle)])
-            points[knuckle + bone + 1] = points[knuckle + bone] + way
     return np.tile(points, (frames, 1, 1))
 
 

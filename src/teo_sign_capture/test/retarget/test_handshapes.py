@@ -8,6 +8,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import pytest
+from robot_person import bent_hand
 
 from teo_common.arrays import Array
 from teo_description.hand_geometry import TOUCH, hand_table, thumb_gaps
@@ -27,16 +28,8 @@ Bends = Sequence[tuple[float, float, float]]
 
 def person(bends: Sequence[Bends], tip: tuple[float, float, float], length: float = 0.08) -> SignerArm:
     """A right hand whose fingers, from index to little finger, are bent so in each frame [deg]."""
-    points = np.zeros((len(bends), 21, 3))
-    for frame, fingers in enumerate(bends):
-        hand = points[frame]
-        for finger, joints in enumerate(fingers):
-            knuckle = 5 + 4 * finger
-            hand[knuckle] = (0.09, -0.03 + 0.02 * finger, 0.0)
-            total = np.cumsum(np.radians(joints))
-            for bone, (share, angle) in enumerate(zip((0.5, 0.3, 0.2), total, strict=True)):
-                way = length * share * np.array([np.cos(angle), 0.0, np.sin(angle)])
-                hand[knuckle + bone + 1] = hand[knuckle + bone] + way
+    points = np.stack([bent_hand(fingers, length) for fingers in bends])
+    for hand in points:
         base, end = np.array([0.03, -0.03, 0.01]), hand[5] + length * np.array(tip)
         hand[1:5] = base + np.linspace(0.0, 1.0, 4)[:, None] * (end - base)
     return signer_arm("right", np.zeros((len(points), 3, 3)), points, STRAIGHT)
