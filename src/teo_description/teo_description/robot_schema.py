@@ -281,12 +281,10 @@ class SigningArms(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
 
 
 class Detour(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """How arms are led round the body: the right arm's joints; the left one mirrors them."""
+    """How arms get out of the way: the right arm's joints; the left one mirrors them."""
 
     sideways: dict[str, Finite]
     """Share by which each joint turns when the upper arm is lifted sideways [1]."""
-    forward: dict[str, Finite]
-    """... brought forward."""
     open: dict[str, Finite]
     """... when the elbow opens."""
     apart_deg: dict[str, Finite]

@@ -187,28 +187,25 @@ class Planner:
         chosen = choose_postures(captured, start=begin.position, end=self._rest, limits=self.limits)
         smaller = chosen if self._size is None else self._size.fitted(chosen, captured)
 
-        def planned(signed: Sequence[SignedToken], *, by_rest: bool) -> Plan:
+        def planned(signed: Sequence[SignedToken]) -> Plan:
             composition = compose(
                 signed, start=begin, limits=self.limits, style=style, rest=self._rest, hold=hold
             )
-            plan = self._avoidance.plan(composition, by_rest=by_rest)
+            plan = self._avoidance.plan(composition)
             gestures = head_gestures([item.token for item in signed], form, self._grammar)
             return self._head.overlaid(plan, signed, gestures)
 
         # Signs in other postures and sizes may touch on their way where their entries keep apart: those
-        # beside the place go back to them. At last arms go to rest between them.
-        by_rest = False
+        # beside the place go back to them.
         ways = [_distinct(*forms) for forms in zip(captured, chosen, smaller, strict=True)]
         while True:
             try:
-                return planned([forms[-1] for forms in ways], by_rest=by_rest)
+                return planned([forms[-1] for forms in ways])
             except SelfCollisionError as collision:
                 near = ways[max(collision.token - 1, 0) : collision.token + 1]
                 beside = [forms for forms in near if len(forms) > 1]
                 if not beside:
-                    if by_rest:
-                        raise
-                    by_rest = True
+                    raise
                 for forms in beside:
                     forms.pop()
 

@@ -14,7 +14,7 @@ from teo_common.arrays import Array
 from teo_description.hand_geometry import TOUCH, hand_table
 from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
-from teo_motion.collision.detours import with_clear_thumbs
+from teo_motion.collision.thumb_detours import with_clear_thumbs
 from teo_motion.planner import Planner
 from teo_motion.sentence.composition import Route
 from teo_motion.trajectory.limits import MotionLimits

@@ -6,14 +6,15 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import chain, pairwise
+from functools import partial
 
 import numpy as np
 
 from teo_common.arrays import Array
 from teo_description.hand_geometry import HandTable
-from teo_motion.collision.detours import aside, detours, with_clear_thumbs, with_detour, with_thumbs_led
-from teo_motion.collision.motion_clearance import MotionClearance
+from teo_motion.collision.arm_detours import arm_detours
+from teo_motion.collision.motion_clearance import RESOLUTION, MotionClearance
+from teo_motion.collision.thumb_detours import with_clear_thumbs, with_thumbs_led
 from teo_motion.sentence.composition import ARMS, Composition, Route
 from teo_motion.sentence.idle_limb_policy import settle_idle_limbs
 from teo_motion.sentence.plan import Plan, sample_at
@@ -27,13 +28,9 @@ _DETOURS_PER_TOKEN = 2
 # A way of a hand is halved so many times for its thumb [1]: a finger then folds by 10 deg between two points.
 _THUMB_ROUNDS = 3
 
-# [m] What all but touches is taken so far off the body before it goes on: a finger's breadth and a half.
-_OFF_BODY = 0.03
-# [rad] A joint turns by so much at most at once meanwhile, and so many times: 3 deg, 40 deg in all.
-_OFF_STEP, _OFF_STEPS = 0.05, 14
-
-# Postures that are looked at on a straight line between two others, before its motion is timed [1].
-_LINE_SAMPLES = 9
+# Detours are sought farther from the body by so much [m], since a motion rounds the corners of its way: by a
+# finger's half, or where that did not do, by a finger's breadth.
+_MARGINS = (0.005, 0.02)
 
 
 class SelfCollisionError(PlanError):
@@ -84,12 +81,11 @@ class CollisionAvoidance:
         self._arm_rest = arm_rest
         self._arms = [column for arm in ARMS for column in limits.humanoid.limb_columns[arm]]
 
-    def plan(self, composition: Composition, *, by_rest: bool = False) -> Plan:
+    def plan(self, composition: Composition) -> Plan:
         """The motion of a composition, led around the robot's body where it would touch it.
 
         Args:
             composition: The sentence.
-            by_rest: Whether arms may go to rest between two signs where no shorter way is found.
 
         Raises:
             SelfCollisionError: No such motion is found.
@@ -102,7 +98,7 @@ class CollisionAvoidance:
                 composition, times=times, limits=self._limits, arm_rest=self._arm_rest, cleared=cleared
             )
             try:
-                return self._led_around(self._measured(self._with_clear_thumbs(route)), by_rest=by_rest)
+                return self._led_around(self._measured(self._with_clear_thumbs(route)))
             except SelfCollisionError as collision:
                 more = _idle_arms(composition, collision) - cleared
                 if not more:
@@ -133,7 +129,7 @@ class CollisionAvoidance:
         nearest = self._motion_clearance.nearest(timed.plan.samples)
         return timed._replace(plan=dataclasses.replace(timed.plan, nearest=nearest))
 
-    def _led_around(self, timed: TimedRoute, *, by_rest: bool) -> Plan:
+    def _led_around(self, timed: TimedRoute) -> Plan:
         """The motion of a route, its transitions led around the body.
 
         Raises:
@@ -142,7 +138,7 @@ class CollisionAvoidance:
         for _ in range(_DETOURS_PER_TOKEN * (len(timed.route.spans) + 1)):
             if self._is_clear(timed.plan):
                 break
-            timed = self._with_worst_avoided(timed, by_rest=by_rest)
+            timed = self._with_worst_avoided(timed)
         if not self._is_clear(timed.plan):
             raise self._collision(timed)
         # Arms that go round take longer, and fingers and thumb are elsewhere on their way meanwhile.
@@ -152,63 +148,43 @@ class CollisionAvoidance:
         led = self._measured(led)
         return led.plan if self._is_clear(led.plan) else timed.plan
 
-    def _with_worst_avoided(self, timed: TimedRoute, *, by_rest: bool) -> TimedRoute:
-        """Lead the transition with the worst collision around the body.
-
-        By way of rest each half has a way of its own, and is led around by itself in a later round.
-        """
+    def _with_worst_avoided(self, timed: TimedRoute) -> TimedRoute:
+        """Lead the transition with the worst collision around the body."""
         route, plan, times = timed
         step = _nearest_step(timed)
         first_step, last_step = self._between_postures(route, step)
         ends = times[[first_step, last_step]]
         if self._is_clear_at(plan, ends):
-            begin, end = ends.tolist()
-            first, middle, second = (plan.at(moment)[0] for moment in (begin, (begin + end) / 2.0, end))
-            rest = self._limits.humanoid.ready
-            of_rest = any(np.allclose(row[self._arms], rest[self._arms]) for row in (first, second))
+            first, second = (plan.at(moment)[0] for moment in ends.tolist())
             # A sign that is swung into leaves the straight line to its next knot, where hands may be close:
             # it stands still at the knot first.
-            ways: Iterable[Sequence[Array]] = [(first,)]
-            if route.token_at(step) is None:
-                ways = detours(first, middle, second, self._limits)
-                if of_rest:  # between two signs arms may go by way of it
-                    ways = chain(ways, self._off_the_body_and_aside(first, second))
+            within = route.token_at(step) is not None
+            ways: Iterable[Sequence[Array]] = [(first,)] if within else self._around(first, second)
             half_way = (first_step + last_step - 1) // 2
             for postures in ways:
-                if self._touches([first, *postures, second]):  # which is known before its motion is timed
-                    continue
                 other = route
                 for posture in reversed(postures):
-                    other = with_detour(other, half_way, posture, self._arms)
+                    other = self._with_detour(other, half_way, posture)
                 found = self._measured(self._timing.timed(other))
                 round_here = range(first_step, last_step + len(postures))
                 if self._is_clear(found.plan) or _nearest_step(found) not in round_here:
                     return found
-            if by_rest and not of_rest and route.token_at(step) is None:
-                return self._measured(self._timing.timed(with_detour(route, half_way, rest, self._arms)))
         raise self._collision(timed)
 
-    def _off_the_body_and_aside(self, first: Array, second: Array) -> Iterator[tuple[Array, ...]]:
-        """Ways between two postures on which hands leave the body first, then go round it."""
-        off, later = self._off_the_body(first), self._off_the_body(second)
-        yield off, aside(off, self._limits), later
-        yield off, aside(off, self._limits), aside(later, self._limits), later
-
-    def _off_the_body(self, posture: Array) -> Array:
-        """A posture in which parts that all but touch have moved apart, by the shortest way; or the same."""
+    def _around(self, first: Array, second: Array) -> Iterator[tuple[Array, ...]]:
+        """Ways between two postures that lead around the body, the nearest first."""
         assert self._motion_clearance is not None
-        off, near = posture, self._motion_clearance.distance(posture)
-        steps = np.zeros((len(self._arms), len(posture)))
-        steps[np.arange(len(self._arms)), self._arms] = _OFF_STEP
-        for _ in range(_OFF_STEPS):
-            if near >= _OFF_BODY:
-                break
-            gains = np.array([self._motion_clearance.distance(off + step) - near for step in steps])
-            if not gains.any():
-                break
-            off = np.clip(off + gains / np.abs(gains).max() @ steps, self._limits.lower, self._limits.upper)
-            near = self._motion_clearance.distance(off)
-        return off
+        looking = self._motion_clearance
+        near = min(looking.distance(first), looking.distance(second)) - RESOLUTION / 2.0
+        for margin in _MARGINS:
+            apart = max(min(self._least_clearance + margin, near), self._least_clearance)
+            yield from arm_detours(first, second, self._limits, partial(looking.is_nearer, distance=apart))
+
+    def _with_detour(self, route: Route, step: int, posture: Array) -> Route:
+        """Have the arms alone pass through another posture half way between two waypoints."""
+        row = np.full(len(posture), np.nan)
+        row[self._arms] = posture[self._arms]
+        return route.with_waypoint(step, row)
 
     def _between_postures(self, route: Route, step: int) -> tuple[int, int]:
         """The waypoints around a step at which arms have places: between signs some are of hands alone."""
@@ -241,15 +217,6 @@ class CollisionAvoidance:
             (index for index, span in enumerate(route.spans) if waypoint <= span.last), len(route.spans)
         )
         return SelfCollisionError(message, token)
-
-    def _touches(self, postures: Sequence[Array]) -> bool:
-        """Whether the robot would touch itself along straight lines from posture to posture."""
-        assert self._motion_clearance is not None
-        return any(
-            self._motion_clearance.is_nearer(begin + share * (end - begin), self._least_clearance)
-            for begin, end in pairwise(postures)
-            for share in np.linspace(0.0, 1.0, _LINE_SAMPLES)
-        )
 
     def _is_clear(self, plan: Plan) -> bool:
         return plan.nearest is None or plan.nearest.distance >= self._least_clearance
