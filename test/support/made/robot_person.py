@@ -89,7 +89,7 @@ def mirrored_points(points):
 JOINTS = RIGHT_ARM + RIGHT_HAND + LEFT_ARM + LEFT_HAND
 
 
-def goals_of(chain, arms, *, local=(0.0, 0.0, 0.0), shift=(0.0, 0.0, 0.0), contact=1.0):
+def goals_of(chain, arms, *, local=(0.0, 0.0, 0.0), shift=(0.0, 0.0, 0.0), contact=1.0, at_face=0.0):
     """What a hand wants that is, but for a shift [m], where an arm has it."""
     poses, local = chain.poses(arms), np.broadcast_to(local, (len(arms), 3))
     upper, fore = poses.origins[:, 3] - chain.shoulder, poses.origins[:, 5] - poses.origins[:, 3]
@@ -101,6 +101,7 @@ def goals_of(chain, arms, *, local=(0.0, 0.0, 0.0), shift=(0.0, 0.0, 0.0), conta
         fingers=poses.rotation[:, :, 0],
         upper_arm=upper / np.linalg.norm(upper, axis=1, keepdims=True),
         fore_arm=fore / np.linalg.norm(fore, axis=1, keepdims=True),
+        at_face=np.full(len(arms), at_face),
     )
 
 

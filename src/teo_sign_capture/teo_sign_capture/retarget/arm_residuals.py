@@ -22,6 +22,9 @@ from teo_sign_capture.signing_space import MIRROR
 
 Goals = TypeVar("Goals", HandGoals, PairGoals)
 
+# By how much more the place of a hand in the air counts at the face, forwards, left, up: nose, mouth and chin
+# are 3 cm apart, where places before the chest are 10.
+_AT_FACE = np.array([0.0, 1.0, 1.0])
 # [rad/m] Weight of the way from hand to hand: a contact is kept to a centimetre or two.
 _TOGETHER = 20.0
 
@@ -215,7 +218,8 @@ class ArmProblem:
             risen = weights.raised * np.maximum(above, 0.0)[:, None]
             way = poses.point_jacobian(elbow)[:, 2:] * (joints < chain.elbow)
             rising = weights.raised * (above > 0.0)[:, None, None] * way
-        at_place = weights.in_air + (weights.on_body - weights.in_air) * goals.contact[frames, None]
+        in_air = weights.in_air * (1.0 + _AT_FACE * goals.at_face[frames, None])
+        at_place = in_air + (weights.on_body - in_air) * goals.contact[frames, None]
         off = points - goals.place[frames]
         away, astray = self._astray(off, at_place, goals.contact[frames])
         residuals = np.concatenate(

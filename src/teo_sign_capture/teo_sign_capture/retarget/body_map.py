@@ -96,6 +96,10 @@ _SKIN = 0.015
 # [m] Nearer to the middle of the head a hand goes with it, farther it does not, for the same person.
 _HEAD_HELD, _HEAD_LEFT = 0.17, 0.32
 
+# [m] Across the view a hand no farther from the middle of the head is at the face, chin to crown; farther
+# than the other it is beside it.
+_AT_FACE, _OFF_FACE = 0.12, 0.20
+
 # Names in `signing_space` of a person's places; those aside stand for both sides.
 _MIDDLE = {
     name: name
@@ -178,6 +182,11 @@ class BodyMap:
         """By how much points go with the head, 0 to 1. Shape (T, k)."""
         away = np.linalg.norm(points - head.places[:, None], axis=-1) / self._size
         return smooth_step((_HEAD_LEFT - away) / (_HEAD_LEFT - _HEAD_HELD))
+
+    def at_face(self, points: Array, head: HeadMotion) -> Array:
+        """How much a hand is at the face for who watches, 0 to 1, by its points. Shapes (T, k, 3), (T,)."""
+        away = np.linalg.norm((points - head.places[:, None])[..., 1:], axis=-1).min(axis=1) / self._size
+        return smooth_step((_OFF_FACE - away) / (_OFF_FACE - _AT_FACE))
 
     def _far(self, points: Array) -> Array:
         moved: Array = self._origin + self._scaling(points)

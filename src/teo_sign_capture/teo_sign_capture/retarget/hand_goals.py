@@ -60,6 +60,7 @@ class HandGoals:
         fingers: Way from wrist to knuckles, unit vector. Shape (T, 3).
         upper_arm: Way from shoulder to elbow, unit vector. Shape (T, 3).
         fore_arm: Way from elbow to wrist, unit vector. Shape (T, 3).
+        at_face: How much the hand is at the face for who watches, 0 to 1. Shape (T,).
     """
 
     local: Array
@@ -69,6 +70,7 @@ class HandGoals:
     fingers: Array
     upper_arm: Array
     fore_arm: Array
+    at_face: Array
 
     @classmethod
     def without_arm(
@@ -84,6 +86,7 @@ class HandGoals:
             fingers=fingers,
             upper_arm=unknown,
             fore_arm=unknown,
+            at_face=np.zeros(len(place)),
         )
 
 
@@ -171,6 +174,7 @@ def hand_goals(body: BodyMap, head: HeadMotion, arm: SignerArm, teo: Array) -> t
         fingers=arm.axes[:, :, 0],
         upper_arm=limbs[:, 0],
         fore_arm=limbs[:, 1],
+        at_face=body.at_face(arm.points, head),
     )
     return goals, meant
 

@@ -60,6 +60,18 @@ def test_no_frame_by_frame_search_finds_anything_clearly_better(chain):
     assert problem.whole(found).cost.sum() < 1.1 * cost
 
 
+def test_in_the_air_before_the_face_a_hand_is_nearer_to_its_height_and_side(chain):
+    """Where it cannot go, straight before which it stays, and its palm gives way a little."""
+
+    def misses(at_face):
+        hand = at_palm(chain, ARMS, shift=(-0.15, 0.1, -0.2), contact=0.0, at_face=at_face)
+        found = solve_arms(ArmProblem(chain, (hand,), None), TIMES, BOUNDS[:1], STARTS)
+        off = chain.poses(found).points(hand.local) - hand.place
+        return np.linalg.norm(off[:, 1:], axis=1).max()
+
+    assert misses(at_face=1.0) < 0.85 * misses(at_face=0.0)
+
+
 def test_bounds_are_kept_where_a_hand_is_out_of_reach(chain):
     problem = ArmProblem(chain, (at_palm(chain, ARMS, shift=(0.0, 0.6, 0.8)),), None)
     found = solve_arms(problem, TIMES, BOUNDS[:1], STARTS)
@@ -88,7 +100,7 @@ def test_hands_that_belong_together_stay_together(chain):
 
 def test_slopes_of_what_is_wanted_are_true(chain):
     rows = np.random.default_rng(0).uniform(-1.0, 0.5, (3, 12))
-    goals = at_palm(chain, ARMS[:3], shift=(0.1, 0.0, -0.1), contact=0.4)
+    goals = at_palm(chain, ARMS[:3], shift=(0.1, 0.0, -0.1), contact=0.4, at_face=0.7)
     way = goals.palm * 0.1
     nearness = np.array([0.0, 0.5, 1.0])
     pair = PairGoals(right=goals.local, left=goals.local, way=way, nearness=nearness, order=way)

@@ -83,6 +83,12 @@ def test_at_the_chin_the_finger_tip_that_touches_it_counts(scene):
     assert np.linalg.norm(goals.place[0] - (0.1095, 0.0, 0.640)) < 0.03
 
 
+def test_a_hand_straight_before_the_chin_is_at_the_face_and_one_before_the_chest_is_not(scene):
+    before = scene.hand - scene.hand[8] + scene.chin + np.array([0.3, 0.0, 0.0])
+    assert scene.goals(before).at_face[0] == 1.0
+    assert scene.goals(before - np.array([0.0, 0.0, 0.3])).at_face[0] == 0.0
+
+
 def test_from_air_to_contact_nothing_jumps(scene):
     ways = np.linspace(0.25, 0.01, 200)
     places = np.stack(
