@@ -178,7 +178,12 @@ class CollisionAvoidance:
         near = min(looking.distance(first), looking.distance(second)) - RESOLUTION / 2.0
         for margin in _MARGINS:
             apart = max(min(self._least_clearance + margin, near), self._least_clearance)
-            yield from arm_detours(first, second, self._limits, partial(looking.is_nearer, distance=apart))
+            found = False
+            for way in arm_detours(first, second, self._limits, partial(looking.is_nearer, distance=apart)):
+                found = True
+                yield way
+            if not found:  # farther off the body there is none either
+                return
 
     def _with_detour(self, route: Route, step: int, posture: Array) -> Route:
         """Have the arms alone pass through another posture half way between two waypoints."""
