@@ -43,6 +43,8 @@ _PUSH, _MOST_PUSHES = 0.012, 12
 _TOUCH = 0.5
 # [rad] How far elbows are opened to lead hands round what is in their way: 5, 11, 16 cm off the body.
 _OPENED_ELBOWS = np.radians([10.0, 20.0, 30.0])
+# [rad] How far upper arms are lifted aside: hands part by 5, 10, 15 cm.
+_LIFTED_ARMS = np.radians([0.0, 8.0, 16.0, 24.0])
 
 _OUT = np.array([0.0, -1.0, 0.0])
 
@@ -284,22 +286,24 @@ class _Performance:
         return np.array(kept_times), np.array(kept)
 
     def _way_round(self, joints: tuple[str, ...], first: Array, second: Array, start: float) -> Array:
-        """Half-way between two knots: elbows opened until nothing touches, or one arm before the other."""
+        """Half-way between two knots: elbows opened, arms aside until nothing touches, or one arm first."""
         limits = self._humanoid.limits(joints)
-        opening = np.zeros(len(joints))
-        for side in SIDES:
-            elbow = self._humanoid.arm(side)[self._chain.elbow]
-            if elbow in joints:
-                opens = self._chain.opens
-                sign = self._humanoid.mirror_signs((elbow,))[0] if side == "left" else 1.0
-                opening[joints.index(elbow)] = opens * sign
+        opening, aside = np.zeros(len(joints)), np.zeros(len(joints))
+        right = {self._humanoid.arm("right")[self._chain.elbow]: self._chain.opens}
+        for direction, shares in ((opening, right), (aside, self._humanoid.file.detour.sideways)):
+            for joint, share in shares.items():
+                other, sign = self._humanoid.mirrored_name(joint), self._humanoid.mirror_signs((joint,))[0]
+                for name, turn in ((joint, share), (other, sign * share)):
+                    if name in joints:
+                        direction[joints.index(name)] = turn
         left = np.array([joint in self._limb("left") for joint in joints])
         middle: Array
-        opened = [
-            np.clip((first + second) / 2.0 + angle * opening, limits.lower, limits.upper)
-            for angle in _OPENED_ELBOWS
+        together = [
+            np.clip((first + second) / 2.0 + opened * opening + lifted * aside, limits.lower, limits.upper)
+            for lifted in _LIFTED_ARMS
+            for opened in (0.0, *_OPENED_ELBOWS)
         ]
-        for middle in (*opened, np.where(left, first, second), np.where(left, second, first)):
+        for middle in (*together[1:], np.where(left, first, second), np.where(left, second, first)):
             if least_clearance(self._robot, joints, [first, middle, second]) >= _CLEARANCE / 2.0:
                 return middle
         raise LutError(
