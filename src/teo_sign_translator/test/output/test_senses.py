@@ -57,6 +57,24 @@ CASES = [
     ("He perdido la vista.", "VISTA", "VESTIR"),
     ("El medio ambiente.", "MEDIOAMBIENTE", "MEDIO"),
     ("El gato está bajo la mesa.", "DEBAJO", "BAJO"),
+    # What is signed in a word's place says one of its senses.
+    ("El banco cobra intereses muy altos.", "BANCO", "INTERESANTE"),
+    ("Tengo mucho interés en el curso.", "INTERESANTE", ""),
+    ("Las entradas están agotadas.", "", "CANSADO"),
+    ("Mi madre está agotada.", "CANSADO", ""),
+    ("La cola del gato es negra.", "", "FILA"),
+    ("Hay mucha cola en el cine.", "FILA", ""),
+    ("La cajera me dio la vuelta.", "", "MÁQUINA"),
+    ("Siento mucho lo de tu padre.", "PENA", "PERDÓN"),
+    ("Lo siento, llego tarde.", "PERDÓN", "PENA"),
+    ("He tenido un sueño raro.", "SOÑAR", "DORMIR"),
+    ("El picante me sienta mal.", "", "SENTARSE"),
+    ("Ella misma lo hizo.", "", "IGUAL"),
+    ("Vamos al mismo colegio.", "IGUAL", ""),
+    ("Va usted en dirección contraria.", "", "DOMICILIO"),
+    ("Mañana hay elecciones.", "VOTO", "ELEGIR"),
+    ("¿Cuándo llegaste?", "CUÁNDO_PASADO", "CUÁNDO"),
+    ("¿Cuándo llegas?", "CUÁNDO", "CUÁNDO_PASADO"),
 ]
 SIGNS = frozenset(gloss for _, *columns in CASES for column in columns for gloss in column.split())
 
