@@ -75,7 +75,8 @@ def _way(
     span = whole[columns]
     length, looks = float(span @ span), 0
 
-    def posture(at: Array) -> Array:
+    def posture(state: Sequence[float] | ompl.base.State) -> Array:
+        at = np.array([state[index] for index in range(len(columns))])
         share = np.clip((at - first[columns]) @ span / length, 0.0, 1.0) if length > 0.0 else 1.0
         row: Array = first + share * whole
         row[columns] = at
@@ -84,7 +85,7 @@ def _way(
     def is_valid(state: ompl.base.State) -> bool:
         nonlocal looks
         looks += 1
-        return not touches(posture(np.array([state[index] for index in range(len(columns))])))
+        return not touches(posture(state))
 
     ends = np.stack((first[columns], second[columns]))
     if any(touches(posture(end)) for end in ends):  # the search would wait for others
@@ -115,5 +116,4 @@ def _way(
     simplifier.reduceVertices(path)
     simplifier.partialShortcutPath(path)
     simplifier.reduceVertices(path)
-    states = path.getStates()[1:-1]
-    yield tuple(posture(np.array([state[index] for index in range(len(columns))])) for state in states)
+    yield tuple(map(posture, path.getStates()[1:-1]))

@@ -85,7 +85,7 @@ def test_teo_does_again_what_teo_has_done(robot, played, both):
     assert off.max() < 25.0
     for side in ("right", "left"):
         wanted, found = (palms(robot, JOINTS, motion, side) for motion in (played, both.positions))
-        assert 1000.0 * np.linalg.norm(wanted[:, :3, 3] - found[:, :3, 3], axis=1).max() < 22.0
+        assert 1000.0 * np.linalg.norm(wanted[:, :3, 3] - found[:, :3, 3], axis=1).max() < 20.0
         turned = (wanted[:, :3, 2] * found[:, :3, 2]).sum(axis=1)
         assert np.degrees(np.arccos(np.clip(turned, -1, 1))).max() < 3.0
 

@@ -73,6 +73,12 @@ CASES = [
     ("Vamos al mismo colegio.", "IGUAL", ""),
     ("Va usted en dirección contraria.", "", "DOMICILIO"),
     ("Mañana hay elecciones.", "VOTO", "ELEGIR"),
+    ("¿Recibiste mi carta?", "OBTENER", ""),
+    ("La alcaldesa nos recibió en su despacho.", "", "OBTENER"),
+    ("¿Cuál es la dirección de la farmacia?", "DOMICILIO", ""),
+    ("Quedamos a las tres, ¿vale?", "DE_ACUERDO", ""),
+    ("Vale, un momento.", "DE_ACUERDO", ""),
+    ("Lo siento, mi madre está enferma.", "PERDÓN", "PENA"),
     ("¿Cuándo llegaste?", "CUÁNDO_PASADO", "CUÁNDO"),
     ("¿Cuándo llegas?", "CUÁNDO", "CUÁNDO_PASADO"),
 ]
