@@ -28,8 +28,7 @@ from teo_names import ALL_JOINTS, HOME, LEG_JOINTS, urdf_text
 from teo_sim_driver.node.driver_node import DriverNode
 from teo_sim_driver.rules import DriverError
 
-# [s] Five of the driver's periods: what comes sooner is not late.
-USUAL_STEP = 0.05
+PERIOD = 0.01  # [s] of the driver's steps
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
@@ -329,8 +328,8 @@ def test_by_a_simulators_clock_the_path_is_executed_in_simulated_time(clock, new
     # Where the elbow is says nothing but the stamp: the curve that was sent, in closed form.
     # On a busy machine steps are late, and the elbow is behind it by what they were late together at most.
     times = np.array([(stamp(state) - start) / SECOND for state in bench.states])
-    lost = np.cumsum(np.maximum(np.diff(times, prepend=times[0]) - USUAL_STEP, 0.0))
-    early, late = (np.clip(times - behind, 0.0, 1.0) / 2.0 for behind in (USUAL_STEP + lost, 0.0))
+    lateness = np.cumsum(np.maximum(np.diff(times, prepend=times[0]) - PERIOD, 0.0))
+    early, late = (np.clip(times - behind, 0.0, 1.0) / 2.0 for behind in (PERIOD + lateness, 0.0))
     least, most = (-0.4 * (4.0 * u * (1.0 - u)) ** 3 for u in (late, early))
     positions = np.array([state.position[elbow] for state in bench.states])
     assert (positions >= least - 1e-4).all() and (positions <= most + 1e-4).all()
