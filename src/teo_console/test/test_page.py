@@ -39,7 +39,8 @@ from teo_bringup.graph import Graph
 from teo_sim_driver.motion.path_time import DEFAULT_STOP_DECELERATION, DEFAULT_STOP_JERK
 
 WEB = Path(__file__).parents[1] / "web"
-STARVED = 1000.0  # [ms] without a picture: a quiet machine has 270 at most
+# [s] without a picture or a pose, in which an E, lit for 1.0 s, may be passed; a quiet machine has 0.3.
+STARVED = 0.9
 TABS = ("watch", "dictionary", "teach", "review", "practise")
 NewPage = Callable[..., Page]
 
@@ -99,6 +100,7 @@ def test_a_typed_sentence_is_signed_its_captions_in_order_while_the_joints_move(
         sign(page, "¿Eres Eva?")
         expect(page.locator(".token.lit")).to_be_visible()
         page.evaluate("window.stood = 0")
+        begin = time.time()
         assert page.inner_text("#status").startswith("Signando: ¿Eres Eva?")
         glosses = page.locator(".token").evaluate_all("items => items.map((item) => item.dataset.gloss)")
         assert glosses == ["TÚ", "E", "V", "A"]
@@ -108,8 +110,9 @@ def test_a_typed_sentence_is_signed_its_captions_in_order_while_the_joints_move(
         wait_until_ready(page)
     lit = page.evaluate("window.lit")
     assert lit == [gloss for gloss in glosses if gloss in lit]
-    # On a starved machine the page may draw nothing for longer than a letter takes.
-    assert len(lit) > 1 if page.evaluate("window.stood") > STARVED else lit == glosses
+    # On a starved machine the page may draw or hear nothing for longer than a letter takes.
+    stood = max(page.evaluate("window.stood / 1000"), poses.longest_gap(begin, page.evaluate("window.until")))
+    assert len(lit) > 1 if stood > STARVED else lit == glosses, (lit, stood)
     page.screenshot(path=pictures / "watch_desktop.png")  # a page without a graphics card stands for a second
     assert poses.farthest() > 0.5
     expect(page.locator(".history li").filter(has_text="¿Eres Eva?")).to_have_count(1)

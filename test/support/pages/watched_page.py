@@ -8,6 +8,7 @@ import io
 import json
 import re
 import time
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -34,7 +35,10 @@ NOTE_LIT = """
   });
   new MutationObserver(() => {
     const now = document.querySelector(".token.lit");
-    if (now && now !== window.last) window.lit.push(now.dataset.gloss);
+    if (now && now !== window.last) {
+      window.lit.push(now.dataset.gloss);
+      window.until = Date.now() / 1000; // [s] when the last was lit
+    }
     window.last = now;
   }).observe(document.querySelector(".captions"), { subtree: true, attributes: true, childList: true });
 }
@@ -58,6 +62,11 @@ class Poses:
         """How far any joint has moved since a time of the node's [rad]."""
         positions = [pose for stamp, pose in self.heard if stamp >= since]
         return max((max(joint) - min(joint) for joint in zip(*positions, strict=True)), default=0.0)
+
+    def longest_gap(self, begin: float, end: float) -> float:
+        """How long no pose came between two times of the node's [s]."""
+        stamps = [begin, *(stamp for stamp, _ in self.heard if begin < stamp < end), end]
+        return max(after - before for before, after in pairwise(stamps))
 
     def wait_until(self, page: Page, stamp: float) -> None:
         """Wait for a pose of this time of the node's or a later one [s]; one comes every second at least."""
