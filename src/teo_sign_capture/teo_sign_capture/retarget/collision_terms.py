@@ -124,7 +124,7 @@ class CollisionModel:
         self._others = others
         self._home_trunk = self._trunk(robot.configuration({}))
 
-    def pose(self, frame: int, arms: Array, share: float = 0.0) -> dict[str, float]:
+    def _pose(self, frame: int, arms: Array, share: float) -> dict[str, float]:
         """All joints by name [rad].
 
         Args:
@@ -158,31 +158,23 @@ class CollisionModel:
         return total
 
     def clearance(self, frame: int, arms: Array, share: float = 0.0) -> Clearance:
-        """Smallest distance between parts that must not touch; arguments as for `pose`."""
-        return self._robot.clearance(self._robot.configuration(self.pose(frame, arms, share)))
+        """Smallest distance between parts that must not touch; arguments as for `_pose`."""
+        return self._robot.clearance(self._robot.configuration(self._pose(frame, arms, share)))
 
-    def terms(
-        self,
-        frames: NDArray[np.intp],
-        arms: Array,
-        shares: Array | None = None,
-        *,
-        within: float = WATCHED,
-    ) -> CollisionTerms:
+    def terms(self, frames: NDArray[np.intp], arms: Array, shares: Array, *, within: float) -> CollisionTerms:
         """What is near in some frames, or on the straight ways from them to the next.
 
         Args:
             frames: The frames. Shape (k,).
             arms: Of all frames. Shape (T, m) [rad].
-            shares: Of the ways that are behind; none in the frames themselves. Shape (k,).
+            shares: Of the ways that are behind; 0 in the frames themselves. Shape (k,).
             within: Parts nearer than this are told of [m].
         """
-        shares = np.zeros(len(frames)) if shares is None else shares
         found: list[tuple[int, Contact]] = []
         homes = []
         looked = between(arms, frames, shares)
         for index, (frame, share) in enumerate(zip(frames.tolist(), shares.tolist(), strict=True)):
-            q = self._robot.configuration(self.pose(frame, looked[index], share))
+            q = self._robot.configuration(self._pose(frame, looked[index], share))
             near = self._robot.contacts(q, within)
             if near:
                 home = self._home_trunk @ np.linalg.inv(self._trunk(q))

@@ -53,15 +53,19 @@ def follow_hand(table: HandTable, times: Array, arm: SignerArm) -> HandMotion:
         times: Of the frames [s]. Shape (T,).
         arm: The person's, with its hand.
     """
-    local, bends = arm.local, arm.bends
+    bends, rows = arm.bends, finger_rows(table.hand)
     fingers = finger_flexions(table, bends)
-    bones = [np.linalg.norm(np.diff(local[:, row : row + 4], axis=1), axis=2).sum(axis=1) for row in KNUCKLES]
-    scaled = local * (table.hand.finger_length / float(np.median(bones)))
-    first = KNUCKLES[finger_rows(table.hand)[0]]
+    scaled = arm.local * (table.hand.finger_length / finger_length(arm))
+    first = KNUCKLES[rows[0]]
     thumb = follow_thumb(table, times, fingers, scaled - scaled[:, first, None])
-    rows = finger_rows(table.hand)
-    error = np.abs(bends[:, rows].sum(axis=2) - _whole_bends(table, fingers)).mean(axis=1) / 3.0
+    error = np.abs(bends[:, rows].sum(axis=2) - _whole_bends(table, fingers)).mean(axis=1) / _FINGER_JOINTS
     return HandMotion(np.concatenate([thumb, fingers], axis=1), error)
+
+
+def finger_length(arm: SignerArm) -> float:
+    """Length of a person's fingers, median of the four and of the frames [m]."""
+    fingers = [arm.local[:, row : row + 4] for row in KNUCKLES]
+    return float(np.median([np.linalg.norm(np.diff(one, axis=1), axis=2).sum(axis=1) for one in fingers]))
 
 
 def finger_flexions(table: HandTable, bends: Array) -> Array:
