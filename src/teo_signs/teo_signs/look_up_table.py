@@ -294,17 +294,7 @@ def _unlisted(directory: Path, error: OSError) -> LutError:
 
 
 def _refuse_another(sign: Sign, entry: Path, language: Language, robot: str) -> None:
-    """Refuse an entry that is not of the language or for the robot in use.
-
-    Args:
-        sign: The entry as read.
-        entry: Its file, for the message.
-        language: The language in use.
-        robot: Name of the robot in use.
-
-    Raises:
-        LutError: "other_language" or "other_robot", with what to do.
-    """
+    """Refuse an entry, which its file names, that is not of the language or for the robot in use."""
     code = language.code
     if sign.language not in (code, *language.formerly):
         raise LutError(

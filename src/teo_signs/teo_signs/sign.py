@@ -124,8 +124,8 @@ def sign_warnings(sign: Sign) -> tuple[str, ...]:
     return tuple(warnings)
 
 
-# Entries keep so many decimals of a second and a radian: a hash sees no more of them.
-_DECIMALS = 6
+# Decimals of a second and of a radian that entries keep, one more than encoders resolve; a hash sees no more.
+DECIMALS = 6
 
 
 def motion_hash(sign: Sign) -> str:
@@ -177,5 +177,5 @@ def with_alternatives_in_force(sign: Sign) -> Sign:
 
 
 def _rounded(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    rounded: NDArray[np.float64] = np.round(values, _DECIMALS) + 0.0  # no negative zeros
+    rounded: NDArray[np.float64] = np.round(values, DECIMALS) + 0.0  # no negative zeros
     return rounded
