@@ -7,25 +7,19 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from made_bags import signing
 from refusals import refused
 
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
 from teo_names import COMMANDED_JOINTS, joint_limits
 from teo_sign_capture.entries.sign_entry import Captured, Origin, make_sign
-from teo_sign_capture.entries.take import SignTake, capture_take
+from teo_sign_capture.entries.take import SignTake
 from teo_signs.sign_file import read_sign, save_sign
 from teo_signs.tokens import parse_printed
 
 ORIGIN = Origin(
     source="made, sha256 0123456789abcdef", standing="described", licence="Apache-2.0", notes="A test."
 )
-
-
-@pytest.fixture(scope="module")
-def take(robot: Robot) -> SignTake:
-    return capture_take(robot, signing())
 
 
 @pytest.fixture(scope="module")

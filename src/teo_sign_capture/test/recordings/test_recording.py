@@ -72,12 +72,6 @@ def test_what_is_no_bag_is_refused(tmp_path: Path) -> None:
             open_recording(path)
 
 
-def test_a_bag_that_is_cut_off_before_its_first_message_is_refused(bag: Path) -> None:
-    bag.write_bytes(bag.read_bytes()[:3000])
-    with refused("unreadable_bag", "no message can be read"):
-        open_recording(bag)
-
-
 @pytest.mark.slow
 def test_of_images_that_were_cut_off_those_before_the_cut_are_used_and_that_is_said(tmp_path: Path) -> None:
     (whole,) = SHIPPED.glob("*.mcap")

@@ -45,14 +45,8 @@ def test_the_map_is_the_same_on_both_sides_and_folds_nowhere(robot):
     points = grid.reshape(-1, 3)
     assert body.place(points * MIRROR) == pytest.approx(body.place(points) * MIRROR, abs=1e-9)
     step = 1e-4
-    slopes = np.stack(
-        [
-            (body.place(points + step * axis) - body.place(points - step * axis)) / (2 * step)
-            for axis in np.eye(3)
-        ],
-        axis=2,
-    )
-    assert np.linalg.det(slopes).min() > 0.1
+    moved = [body.place(points + step * axis) - body.place(points - step * axis) for axis in np.eye(3)]
+    assert np.linalg.det(np.stack(moved, axis=2) / (2.0 * step)).min() > 0.1
 
 
 def test_far_from_the_body_lengths_grow_with_the_arms_and_stretched_arms_stay_stretched(robot):
@@ -65,11 +59,8 @@ def test_far_from_the_body_lengths_grow_with_the_arms_and_stretched_arms_stay_st
     assert aside[1] == pytest.approx(chain.shoulder[1] - chain.reach, abs=0.01)
     # Crown, shoulders and waist keep their heights, and hands that hang still hang.
     shoulders, crown = body.shoulder_height, find_place(robot.humanoid, "head_top").point[2]
-    found = body.place(
-        np.array(
-            [(0.9, 0.0, z) for z in (person.places["head_top"][2], 0.0, -0.7 * person.trunk, -person.arm)]
-        )
-    )[:, 2]
+    heights = (person.places["head_top"][2], 0.0, -0.7 * person.trunk, -person.arm)
+    found = body.place(np.array([(0.9, 0.0, height) for height in heights]))[:, 2]
     assert found == pytest.approx([crown, shoulders, 0.3 * shoulders, shoulders - chain.reach], abs=0.005)
 
 

@@ -144,10 +144,9 @@ def test_a_person_in_a_mirror_gives_the_mirrored_motion(robot, points, both):
 
 @pytest.mark.parametrize(("side", "joints", "column"), [("right", RIGHT, 0), ("left", LEFT, 1)])
 def test_one_hand_leaves_the_other_out(robot, points, side, joints, column):
-    body, left, right, face = points
-    hands = {"left": np.full_like(left, np.nan), "right": right} if side == "right" else {"left": left}
-    hands = {"left": left, "right": np.full_like(right, np.nan)} | hands
-    found = retargeted(robot, track_of(TIMES, (body, hands["left"], hands["right"], face)), handedness=side)
+    seen = list(points)
+    seen[1 + column] = np.full_like(seen[1 + column], np.nan)  # left comes before right
+    found = retargeted(robot, track_of(TIMES, seen), handedness=side)
     assert found.joints == joints
     assert np.isfinite(found.place_error[:, column]).all()
     assert np.isnan(found.place_error[:, 1 - column]).all()
