@@ -115,7 +115,8 @@ def _filmed(camera: int, gloss: str, seconds: float, reporter: Reporter) -> Path
     from teo_sign_capture.recordings.video import film_name, film_webcam
 
     out = film_name(default_recordings(), gloss)
-    return film_webcam(camera, out, seconds=seconds, on_state=reporter.camera)
+    film_webcam(camera, out, seconds=seconds, on_state=reporter.camera)
+    return out
 
 
 def capture_one(job: CaptureJob, settings: Settings, reporter: Reporter) -> None:

@@ -47,13 +47,7 @@ _Work = Callable[[Path, Path, Progress | None], tuple[str, ...]]
 def _work_apart(
     work: _Work, recording: Path, out: Path, on_progress: Progress | None = None
 ) -> tuple[str, ...]:
-    """Do work on a recording in a process of its own.
-
-    Args:
-        work: A function of a module, which a new process can import.
-        recording: What it reads.
-        out: File that it writes; its folder exists.
-        on_progress: Told of the progress.
+    """Do work on a recording in a process of its own, which can import the work from its module.
 
     Raises:
         LutError: What the work raises; "not_retrieved" where the process died.

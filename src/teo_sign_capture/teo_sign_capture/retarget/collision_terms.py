@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,13 +55,8 @@ class CollisionTerms:
         """Those in some frames one after the other, and on the ways between these."""
         last = self.frames + (self.shares > 0.0)
         inside = (self.frames >= part.start) & (last < part.stop)
-        return CollisionTerms(
-            frames=self.frames[inside] - part.start,
-            shares=self.shares[inside],
-            distances=self.distances[inside],
-            slopes=self.slopes[inside],
-            positions=self.positions[inside],
-        )
+        kept = CollisionTerms(**{name: values[inside] for name, values in vars(self).items()})
+        return replace(kept, frames=kept.frames - part.start)
 
     def added(self, here: Quadratic, positions: Array) -> Quadratic:
         """A sum of squares with the price of what is too near at positions, shape (T, m) [rad]."""
@@ -194,11 +189,10 @@ class CollisionModel:
             for links, points, sign in ends:
                 placed = np.einsum("kij,kj->ki", turns[:, :3, :3], np.array(points)) + turns[:, :3, 3]
                 slopes += sign * self._approach(links, placed, normals, positions)
-        distances = np.array([contact.distance for _, contact in found])
         return CollisionTerms(
             frames=frames[where],
             shares=shares[where],
-            distances=distances,
+            distances=np.array([contact.distance for _, contact in found]),
             slopes=slopes,
             positions=positions,
         )

@@ -92,12 +92,7 @@ def finger_flexions(table: HandTable, bends: Array) -> Array:
 
 
 def _whole_bends(table: HandTable, fingers: Array) -> Array:
-    """By how much fingers are bent from the knuckle to the tip, all joints added [rad].
-
-    Args:
-        table: The robot's hand.
-        fingers: Flexions [rad]. Shape (T, fingers).
-    """
+    """By how much fingers of some flexions bend from knuckle to tip [rad]. Shapes (T, fingers)."""
     last = table.fingers[:, :, 3] - table.fingers[:, :, 2]
     whole = np.unwrap(np.arctan2(last[..., 2], last[..., 0]), axis=0)
     bends = [np.interp(column, table.flexions, row) for column, row in zip(fingers.T, whole.T, strict=True)]
@@ -175,8 +170,7 @@ def follow_thumb(table: HandTable, times: Array, fingers: Array, person: Array) 
         times: [s]. Shape (T,).
         fingers: Flexions of the robot's fingers [rad]. Shape (T, fingers).
         person: The person's 21 keypoints in palm axes from the knuckle of the first of these fingers, in the
-            robot's size [m].
-            Shape (T, 21, 3).
+            robot's size [m]. Shape (T, 21, 3).
 
     Returns:
         [rad]. Shape (T, 2).

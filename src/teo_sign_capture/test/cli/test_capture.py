@@ -96,17 +96,16 @@ def test_a_program_reads_what_became_of_a_sign_and_how_it_stands_at_each_gate(
 
 
 @pytest.mark.slow
-def test_a_trial_leaves_the_table_alone_and_knows_what_it_holds(
-    bag: Path, tmp_path: Path, data_home: Path
-) -> None:
-    own, trial = data_home / "teo" / "lut", tmp_path / "trial"
-    assert run(f"capture {bag} --gloss NUEVA_SEÑA --no-draw").exit_code == 0
-    (outcome,) = lines(run(f"capture {bag} --gloss SEÑA --trial {trial} --json").stdout)
+def test_a_trial_leaves_the_table_alone_and_knows_what_it_holds(bag: Path, tmp_path: Path) -> None:
+    table, trial = tmp_path / "lut", tmp_path / "trial"
+    line = f"capture {bag} --lut {table}"
+    assert run(f"{line} --gloss NUEVA_SEÑA --no-draw").exit_code == 0
+    (outcome,) = lines(run(f"{line} --gloss SEÑA --trial {trial} --json").stdout)
     assert outcome["files"] == [str(trial / "SEÑA.json"), str(trial / "SEÑA.png")]
     assert outcome["similar"][0] == {"gloss": "NUEVA_SEÑA", "seen": 0.0}
-    assert [path.name for path in own.iterdir()] == ["NUEVA_SEÑA.json"]
+    assert [path.name for path in table.iterdir()] == ["NUEVA_SEÑA.json"]
     # A sign that is there already may be tried again.
-    assert run(f"capture {bag} --gloss NUEVA_SEÑA --trial {trial} --no-draw").exit_code == 0
+    assert run(f"{line} --gloss NUEVA_SEÑA --trial {trial} --no-draw").exit_code == 0
 
 
 def test_a_gloss_may_be_typed_in_lower_case(tmp_path: Path) -> None:

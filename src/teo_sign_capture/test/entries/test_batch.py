@@ -40,16 +40,17 @@ def codes(outcomes: list[Outcome]) -> dict[str, str]:
     return {outcome.gloss: outcome.code for outcome in outcomes}
 
 
-def test_names_of_bags_and_folders_are_glosses_and_takes(folder: Path) -> None:
-    for name in ("casa_3.mp4", "Buenos días.mp4", "readme.txt"):
-        (folder / name).write_bytes(b"")
-    write_bag(folder / "BUENOS_DÍAS_2" / "x_0.mcap", signing(duration=0.1))
-    (folder / "BUENOS_DÍAS_2" / "metadata.yaml").write_text("")
-    assert {job.gloss: {bag.name for bag in job.bags} for job in find_jobs(folder)} == {
+def test_names_of_bags_and_folders_are_glosses_and_takes(tmp_path: Path) -> None:
+    for name in (
+        *("CASA_1.mcap", "CASA_2.mcap", "casa_3.mp4", "Buenos días.mp4", "readme.txt"),
+        *("HOLA/monday.mcap", "BUENOS_DÍAS_2/metadata.yaml", "BUENOS_DÍAS_2/x_0.mcap"),
+    ):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).touch()
+    assert {job.gloss: {bag.name for bag in job.bags} for job in find_jobs(tmp_path)} == {
         "BUENOS_DÍAS": {"Buenos días.mp4", "BUENOS_DÍAS_2"},
         "CASA": {"CASA_1.mcap", "CASA_2.mcap", "casa_3.mp4"},
         "HOLA": {"monday.mcap"},
-        "NADA": {"NADA.mcap"},
     }
 
 
