@@ -160,12 +160,7 @@ _WHITE, _BLACK = (255, 255, 255), (0, 0, 0)
 
 
 def in_one_picture(robot: Robot, sign: Sign) -> Image:
-    """Draw both ends of a sign, the ways between and the touches.
-
-    Args:
-        robot: The sign's robot.
-        sign: The sign.
-    """
+    """Draw both ends of a sign on its robot, the ways between and the touches."""
     camera = camera_named(FRONT, robot.humanoid).sized(*SIZE)
     begins, ends = render_sign(sign, 0.0), render_sign(sign, sign.duration)
     picture: Image = np.ascontiguousarray(cv2.addWeighted(begins, _BEGINNING, ends, 1.0 - _BEGINNING, 0.0))

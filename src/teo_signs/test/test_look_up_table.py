@@ -68,15 +68,6 @@ def test_an_entry_is_read_when_it_is_first_asked_for_and_then_kept(tmp_path: Pat
         lut["ROTO"]
 
 
-def test_a_changed_table_is_seen_after_reload(tmp_path: Path) -> None:
-    copy_of("A", tmp_path, "A")
-    lut = Lut.open(tmp_path)
-    copy_of("A", tmp_path, "B")
-    assert lut.glosses() == ("A",)
-    lut.reload()
-    assert lut.glosses() == ("A", "B")
-
-
 def test_an_unknown_gloss_is_refused_by_name(tmp_path: Path) -> None:
     lut = Lut.open(tmp_path)
     assert lut.glosses() == ()

@@ -15,7 +15,7 @@ from rich.text import Text
 
 from teo_description.humanoid import DEFAULT_ROBOT
 from teo_sign_capture.cli import options
-from teo_sign_capture.cli.reporting import fail, tell
+from teo_sign_capture.cli.reporting import TerminalReporter, fail
 from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import user_lut_directory
@@ -73,7 +73,7 @@ def record(
         messages = _listen(countdown)
         _output.print(f"{len(messages)} images recorded")
         saved = keep_and_capture(Robot.load(robot), gloss, messages, keep or default_recordings(), settings)
-        tell(captured_outcome(saved))
+        TerminalReporter().captured(captured_outcome(saved))
     except LutError as error:
         fail(error)
 

@@ -75,7 +75,7 @@ def test_a_short_gap_is_filled_and_said_a_long_one_is_left() -> None:
     ("start", "end", "within"),
     [
         (0.68, 1.02, 0.03),  # for the whole of a movement: only its wrist knows when it moved
-        (1.2, 2.1, 0.02),  # hidden for long while it holds still
+        (0.3, 1.4, 0.02),  # hidden for longer, its shape the same before and after
         (0.0, 0.25, 0.03),  # found late
     ],
 )
