@@ -26,7 +26,7 @@ Flags = NDArray[np.bool_]
 # Keypoints of OpenPose's BODY_25, of a hand (OpenPose's and MediaPipe's order) and of OpenPose's face.
 BODY, HAND, FACE = 25, 21, 70
 
-NOSE, MID_HIP = 0, 8
+NOSE, NECK, MID_HIP = 0, 1, 8
 SHOULDER = {"right": 2, "left": 5}
 ELBOW = {"right": 3, "left": 6}
 WRIST = {"right": 4, "left": 7}
