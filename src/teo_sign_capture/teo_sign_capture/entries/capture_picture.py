@@ -23,7 +23,8 @@ from teo_signs.pictures import FRAME_RATE, render_sign
 
 _MOMENTS = 7
 # [px] Width and height of each picture: seven beside each other are as wide as a screen.
-_WIDTH, _HEIGHT = _SIZE = (320, 240)
+_SIZE = (320, 240)
+_WIDTH, _HEIGHT = _SIZE
 # [px/m] The drawn person fills the height from hands that hang to hands above the head.
 _SCALE = 0.8 * _HEIGHT
 # [px] Where the origin of the person's axes is drawn, between the shoulders.

@@ -47,7 +47,7 @@ _Work = Callable[[Path, Path, Progress | None], tuple[str, ...]]
 def _work_apart(
     work: _Work, recording: Path, out: Path, on_progress: Progress | None = None
 ) -> tuple[str, ...]:
-    """Do work on a recording in a process of its own, which can import the work from its module.
+    """Do work on a recording in a process of its own. The work is a function that the process can import.
 
     Raises:
         LutError: What the work raises; "not_retrieved" where the process died.
