@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from robot_person import JOINTS, keypoints, track_of
+from robot_person import JOINTS, keypoints, track_of, turn_head
+from scipy.spatial.transform import Rotation
 
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.body_map import BodyMap, body_boxes, on_skin
@@ -66,12 +67,8 @@ def test_far_from_the_body_lengths_grow_with_the_arms_and_stretched_arms_stay_st
 
 def test_what_is_at_the_head_goes_with_it_and_what_is_far_does_not(robot):
     body_points, left, right, face = keypoints(robot, JOINTS, np.zeros((3, len(JOINTS))))
-    neck = np.array([0.0, 0.0, 0.63])
-    # 80 deg to the left, farther than TEO's head turns, in half a second.
-    cosine, sine = np.cos(np.radians(80.0)), np.sin(np.radians(80.0))
-    turn = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
-    for points, rows in ((body_points, (0, 15, 16, 17, 18)), (face, range(70))):
-        points[2, rows] = (points[2, rows] - neck) @ turn.T + neck
+    # At last 80 deg to the left, farther than TEO's head turns, in half a second.
+    turn_head(body_points, face, Rotation.from_euler("z", [[0.0], [0.0], [80.0]], degrees=True).as_matrix())
     track = track_of(0.5 * np.arange(3), (body_points, left, right, face))
     person, body = map_of(robot, track)
     head = follow_head(robot, head_pose(track, person.head_shape), person)
