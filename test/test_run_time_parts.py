@@ -26,7 +26,7 @@ RUN_TIME = {
     "teo_motion": (),
     "teo_sign_languages": (),
     "teo_sign_translator": (),
-    "teo_signs": ("teo_signs.photo_manner", "teo_signs.pictures"),  # draw
+    "teo_signs": ("teo_signs.pictures",),  # draws
     "teo_sim_driver": ("teo_sim_driver.plants.physics",),  # only where physics is asked for
 }
 

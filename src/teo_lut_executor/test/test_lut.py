@@ -19,7 +19,7 @@ from teo_description.pictures.rendering import save_png
 from teo_description.robot import Robot
 from teo_lut_executor.cli.lut import app
 from teo_signs.look_up_table import default_lut_directory
-from teo_signs.photo_manner import in_one_picture
+from teo_signs.pictures import in_one_picture
 
 TABLE = default_lut_directory()
 

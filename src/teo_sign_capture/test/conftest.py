@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import pytest
+from made_bags import signing
 
 from teo_description.robot import Robot
+from teo_sign_capture.entries.take import SignTake, capture_take
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 
 
@@ -16,3 +18,9 @@ def robot() -> Robot:
 @pytest.fixture(scope="session")
 def chain(robot: Robot) -> ArmKinematics:
     return ArmKinematics(robot)
+
+
+@pytest.fixture(scope="session")
+def take(robot: Robot) -> SignTake:
+    """A sign from the chin outwards, captured."""
+    return capture_take(robot, signing())

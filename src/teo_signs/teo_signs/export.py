@@ -13,12 +13,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from teo_common.arrays import Array
 from teo_description.hand_setpoints import setpoint_axes
 from teo_description.humanoid import SIDES, load_humanoid
-from teo_description.robot_schema import Controllers
 from teo_signs.errors import LutError
 from teo_signs.sign import Sign
 
@@ -160,11 +158,17 @@ def save_playback_tables(directory: Path, motion: SignMotion, *, replace: bool =
             known ("no_boards").
         OSError: It cannot be written.
     """
-    boards = _controllers(motion).boards
+    controllers = load_humanoid(motion.sign.robot).file.controllers
+    if controllers is None:
+        raise LutError(
+            "no_boards",
+            f"{motion.sign.gloss}: expected a robot whose robot.yaml names its control boards, got "
+            f"{motion.sign.robot}: export its signs for play_motion2, which takes joint angles",
+        )
     folder = directory / motion.sign.gloss
     if folder.exists() and not replace:
         raise LutError("exists", f"{folder}: expected a folder that is not there, or --replace")
-    tables = {boards[limb]: playback_table(motion, limb) for limb in motion.limbs}
+    tables = {controllers.boards[limb]: playback_table(motion, limb) for limb in motion.limbs}
     directory.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=directory, prefix=".") as temporary:
         made = Path(temporary) / "made"
@@ -180,25 +184,14 @@ def save_playback_tables(directory: Path, motion: SignMotion, *, replace: bool =
     return [folder / f"{board}.txt" for board in tables]
 
 
-def _controllers(motion: SignMotion) -> Controllers:
-    controllers = load_humanoid(motion.sign.robot).file.controllers
-    if controllers is None:
-        raise LutError(
-            "no_boards",
-            f"{motion.sign.gloss}: expected a robot whose robot.yaml names its control boards, got "
-            f"{motion.sign.robot}: export its signs for play_motion2, which takes joint angles",
-        )
-    return controllers
-
-
-def _board_units(motion: SignMotion, limb: str) -> NDArray[np.float64]:
+def _board_units(motion: SignMotion, limb: str) -> Array:
     """Positions of a limb in the units of its board, rounded to what the file keeps."""
     humanoid, positions = load_humanoid(motion.sign.robot), motion.limb(limb)
     hands = {f"{side}_hand": setpoint_axes(humanoid, side) for side in SIDES}
     if limb not in hands:
-        return np.asarray(np.round(np.degrees(positions), _BOARD_DECIMALS), dtype=np.float64)
+        return np.asarray(np.round(np.degrees(positions), _BOARD_DECIMALS))
     columns = [
         [min(max(axis.setpoint(angle), 0.0), axis.travel) for angle in column]
         for axis, column in zip(hands[limb], positions.T.tolist(), strict=True)
     ]
-    return np.asarray(np.round(np.array(columns).T, _BOARD_DECIMALS), dtype=np.float64)
+    return np.round(np.array(columns).T, _BOARD_DECIMALS)

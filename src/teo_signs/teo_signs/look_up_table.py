@@ -100,7 +100,7 @@ class Lut(Mapping[str, Sign]):
     """Signs by gloss. Opening lists names only; an entry is read and checked when it is first asked for.
 
     A gloss is found whatever the Unicode form in which it is written, and with a space for "_". Signs are
-    kept once read; what changed on disk since is seen with `refresh` or `reload`.
+    kept once read; what changed on disk since is seen with `refresh`.
     """
 
     def __init__(self, directory: Path, language: Language, robot: str, *, own: Path | None = None) -> None:
@@ -117,7 +117,7 @@ class Lut(Mapping[str, Sign]):
         self._paths: dict[str, Path] = {}
         self._signs: dict[str, Sign] = {}
         self._modified: tuple[int, ...] = ()
-        self.reload()
+        self._reload()
 
     @classmethod
     def open(
@@ -175,7 +175,7 @@ class Lut(Mapping[str, Sign]):
         found = Counter(path.parent for path in self._paths.values())
         return " and ".join(f"{directory} ({found[directory]})" for directory in directories)
 
-    def reload(self) -> None:
+    def _reload(self) -> None:
         """List the directories again and forget what was read."""
         modified = self._stamps()
         paths: dict[str, Path] = {}
@@ -191,7 +191,7 @@ class Lut(Mapping[str, Sign]):
         """
         try:
             if self._stamps() != self._modified:
-                self.reload()
+                self._reload()
         except LutError as error:
             return str(error)
         return ""
@@ -294,17 +294,7 @@ def _unlisted(directory: Path, error: OSError) -> LutError:
 
 
 def _refuse_another(sign: Sign, entry: Path, language: Language, robot: str) -> None:
-    """Refuse an entry that is not of the language or for the robot in use.
-
-    Args:
-        sign: The entry as read.
-        entry: Its file, for the message.
-        language: The language in use.
-        robot: Name of the robot in use.
-
-    Raises:
-        LutError: "other_language" or "other_robot", with what to do.
-    """
+    """Refuse an entry, which its file names, that is not of the language or for the robot in use."""
     code = language.code
     if sign.language not in (code, *language.formerly):
         raise LutError(

@@ -82,16 +82,16 @@ class MirroredSigns(Mapping[str, Sign]):
 def mirrored_sign(robot: Robot, sign: Sign) -> Sign:
     """The mirror image of a sign, within the limits."""
     joints = tuple(map(robot.humanoid.mirrored_name, sign.joints))
-    knots, errors = _mirrored_knots(robot, sign.joints, joints, sign.knots)
-    forms, alternatives = {}, []
-    for inflection, form in sign.forms.items():
-        rows, more = _mirrored_knots(robot, sign.joints, joints, form.knots)
-        forms[inflection] = replace(form, knots=rows)
-        errors = np.maximum(errors, more)
-    for other in sign.alternatives:
-        rows, more = _mirrored_knots(robot, sign.joints, joints, other)
-        alternatives.append(rows)
-        errors = np.maximum(errors, more)
+    errors = np.zeros(2)
+
+    def mirror(knots: Array) -> Array:
+        rows, off = _mirrored_knots(robot, sign.joints, joints, knots)
+        np.maximum(errors, off, out=errors)
+        return rows
+
+    knots = mirror(sign.knots)
+    forms = {inflection: replace(form, knots=mirror(form.knots)) for inflection, form in sign.forms.items()}
+    alternatives = tuple(mirror(other) for other in sign.alternatives)
     place, turn = errors.tolist()
     figures = {"mirror_error_mm": round(1000.0 * place, 1), "mirror_error_deg": round(math.degrees(turn), 1)}
     notes = f"{sign.provenance.notes} Mirrored for a left-handed signer.".strip()
@@ -104,7 +104,7 @@ def mirrored_sign(robot: Robot, sign: Sign) -> Sign:
         quality={**sign.quality, **figures} if turn else sign.quality,
         forms=forms,
     )
-    return with_alternatives(mirrored, tuple(alternatives))
+    return with_alternatives(mirrored, alternatives)
 
 
 def _mirrored_knots(

@@ -124,8 +124,8 @@ def sign_warnings(sign: Sign) -> tuple[str, ...]:
     return tuple(warnings)
 
 
-# Entries keep so many decimals of a second and a radian: a hash sees no more of them.
-_DECIMALS = 6
+# Decimals of a second and of a radian that entries keep, one more than encoders resolve; a hash sees no more.
+DECIMALS = 6
 
 
 def motion_hash(sign: Sign) -> str:
@@ -149,7 +149,9 @@ def citation_hash(sign: Sign) -> str:
     Returns:
         64 lower-case hexadecimal digits.
     """
-    form = [list(sign.joints), *(_rounded(values).tolist() for values in (sign.times, sign.knots))]
+    # Zero is added to take the sign from -0.0.
+    kept = ((np.round(values, DECIMALS) + 0.0).tolist() for values in (sign.times, sign.knots))
+    form = [list(sign.joints), *kept]
     return hashlib.sha256(json.dumps(form).encode()).hexdigest()
 
 
@@ -174,8 +176,3 @@ def with_alternatives_in_force(sign: Sign) -> Sign:
     if not sign.alternatives or sign.alternatives_of == citation_hash(sign):
         return sign
     return replace(sign, alternatives=(), alternatives_of=sign.alternatives_of or "unknown")
-
-
-def _rounded(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    rounded: NDArray[np.float64] = np.round(values, _DECIMALS) + 0.0  # no negative zeros
-    return rounded

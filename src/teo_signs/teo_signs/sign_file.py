@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import functools
 import json
 import math
 from collections.abc import Callable
@@ -22,7 +21,14 @@ from teo_description.errors import DescriptionError
 from teo_description.humanoid import Humanoid, load_humanoid
 from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
 from teo_signs.errors import LutError
-from teo_signs.sign import Form, Sign, gloss_key, with_alternatives_in_force, with_standing_in_force
+from teo_signs.sign import (
+    DECIMALS,
+    Form,
+    Sign,
+    gloss_key,
+    with_alternatives_in_force,
+    with_standing_in_force,
+)
 from teo_signs.sign_schema import (
     DEFAULT_ROBOT,
     SCHEMA_VERSION,
@@ -35,8 +41,6 @@ from teo_signs.sign_schema import (
 # 28 joints at 25 frames a second for a minute are 0.8 MB of text; no sign is longer than that.
 MAX_FILE_BYTES = 1_000_000
 
-# Entries keep 1e-6 rad; the encoders resolve 1e-5 rad.
-_DECIMALS = 6
 # A knot on a limit that another program rounded may be beyond it by half a digit.
 LIMIT_TOLERANCE = 1e-6
 
@@ -103,7 +107,7 @@ def format_sign(sign: Sign) -> str:
         "kind": sign.kind,
         "handedness": sign.handedness,
         "joints": list(sign.joints),
-        "times": np.round(sign.times, _DECIMALS).tolist(),
+        "times": np.round(sign.times, DECIMALS).tolist(),
     }
     lines = [f'  "{key}": {_json(value)}' for key, value in head.items()]
     lines.append(_block("knots", "[]", [_json(row) for row in _rounded_within(sign, sign.knots).tolist()]))
@@ -279,7 +283,8 @@ class _Reader:
         knots = np.array(given, dtype=np.float64)
         for row_index, column in np.argwhere(~np.isfinite(knots)).tolist():
             self._check_finite(f"{field}[{row_index}][{column}]", knots[row_index, column])
-        lower, upper = _bounds(self._humanoid, joints)
+        limits = self._humanoid.limits(joints)
+        lower, upper = limits.lower, limits.upper
         outside = np.argwhere((knots < lower - LIMIT_TOLERANCE) | (knots > upper + LIMIT_TOLERANCE))
         if outside.size:
             row_index, column = outside[0].tolist()
@@ -289,15 +294,7 @@ class _Reader:
 
 
 def _refuse_mixed(sign: Sign, path: Path) -> None:
-    """Refuse to write a sign beside those of another language or robot: one of them tells for all.
-
-    Args:
-        sign: The sign.
-        path: Its file, which need not be there.
-
-    Raises:
-        LutError: "other_language" or "other_robot".
-    """
+    """Refuse to write a sign beside those of another language or robot: one of them tells for all."""
     beside = next((other for other in path.parent.glob("[!.]*.json") if other != path), None)
     if beside is None:
         return
@@ -331,19 +328,6 @@ def _humanoid(name: str, where: str) -> Humanoid:
         raise LutError(error.code, f"{where}: robot: {error}") from error
 
 
-@functools.cache
-def _limits(humanoid: Humanoid) -> dict[str, tuple[float, float]]:
-    limits = humanoid.limits()
-    bounds = zip(limits.lower.tolist(), limits.upper.tolist(), strict=True)
-    return dict(zip(limits.names, bounds, strict=True))
-
-
-def _bounds(humanoid: Humanoid, joints: list[str]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    limits = _limits(humanoid)
-    lower, upper = np.array([limits[joint] for joint in joints]).T
-    return lower, upper
-
-
 def _array(values: list[float] | list[list[float]]) -> NDArray[np.float64]:
     array = np.array(values, dtype=np.float64)
     array.setflags(write=False)
@@ -353,21 +337,22 @@ def _array(values: list[float] | list[list[float]]) -> NDArray[np.float64]:
 def _form(sign: Sign, form: Form) -> str:
     """The text of a form: its times, then a line for each knot."""
     rows = ",\n".join(f"      {_json(row)}" for row in _rounded_within(sign, form.knots).tolist())
-    times = _json(np.round(form.times, _DECIMALS).tolist())
+    times = _json(np.round(form.times, DECIMALS).tolist())
     return f'{{\n      "times": {times},\n      "knots": [\n{rows}\n      ]\n    }}'
 
 
 def _rounded_within(sign: Sign, knots: NDArray[np.float64]) -> NDArray[np.float64]:
     """Knots rounded for the file, inwards where the nearest digit lies beyond a limit that the knot keeps."""
-    rounded: NDArray[np.float64] = np.round(knots, _DECIMALS)
+    rounded: NDArray[np.float64] = np.round(knots, DECIMALS)
     humanoid = _humanoid(sign.robot, sign.gloss)
     known = set(sign.joints) <= set(humanoid.commanded_joints)
     if not known or rounded.ndim != 2 or not np.isfinite(rounded).all():
         return rounded  # refused by name when it is read
-    lower, upper = _bounds(humanoid, list(sign.joints))
-    step = 10.0**-_DECIMALS
-    rounded = np.where((rounded > upper) & (knots <= upper), np.round(rounded - step, _DECIMALS), rounded)
-    return np.where((rounded < lower) & (knots >= lower), np.round(rounded + step, _DECIMALS), rounded)
+    limits, step = humanoid.limits(sign.joints), 10.0**-DECIMALS
+    beyond = (rounded > limits.upper) & (knots <= limits.upper)
+    rounded = np.where(beyond, np.round(rounded - step, DECIMALS), rounded)
+    beyond = (rounded < limits.lower) & (knots >= limits.lower)
+    return np.where(beyond, np.round(rounded + step, DECIMALS), rounded)
 
 
 def _short(value: object) -> str:

@@ -110,15 +110,12 @@ def parse_printed(text: str) -> tuple[Token, ...]:
             if not all(parts):
                 message = f"{word!r}: expected a letter on either side of each hyphen, got nothing there"
                 raise PlanError("bad_gloss", message)
-            tokens += [_spelled(part, word_index) for part in parts]
+            for part in parts:
+                kind = Kind.NUMBER if part.isdecimal() else Kind.LETTER
+                tokens.append(Token(gloss=part, kind=kind, word_index=word_index))
         else:
             inflected = _INFLECTED.fullmatch(word)
             gloss, inflection = inflected.groups() if inflected else (word, "")
             tokens.append(Token(gloss=gloss, word_index=word_index, inflection=inflection))
     check_tokens(tokens)
     return tuple(tokens)
-
-
-def _spelled(part: str, word_index: int) -> Token:
-    kind = Kind.NUMBER if part.isdecimal() else Kind.LETTER
-    return Token(gloss=part, kind=kind, word_index=word_index)

@@ -12,7 +12,8 @@ import pytest
 from teo_description.robot import Robot
 from teo_names import LEFT_HAND
 from teo_signs.likeness import nearest_pairs
-from teo_signs.look_up_table import Lut, Sign
+from teo_signs.look_up_table import Lut
+from teo_signs.sign import Sign
 
 
 @pytest.fixture(scope="module")

@@ -14,10 +14,13 @@ import numpy as np
 import pytest
 from refusals import refused
 
+from teo_description.hand_geometry import TOUCH, hand_table, thumb_gaps
+from teo_description.robot import Robot
+from teo_names import LEFT_HAND, RIGHT_HAND
 from teo_sign_languages import load_language
+from teo_signs.errors import LutError
 from teo_signs.look_up_table import (
     Lut,
-    LutError,
     default_lut_directory,
     held_entry,
     holding_tables,
@@ -63,15 +66,6 @@ def test_an_entry_is_read_when_it_is_first_asked_for_and_then_kept(tmp_path: Pat
     assert lut["A"] is first
     with refused("not_json"):
         lut["ROTO"]
-
-
-def test_a_changed_table_is_seen_after_reload(tmp_path: Path) -> None:
-    copy_of("A", tmp_path, "A")
-    lut = Lut.open(tmp_path)
-    copy_of("A", tmp_path, "B")
-    assert lut.glosses() == ("A",)
-    lut.reload()
-    assert lut.glosses() == ("A", "B")
 
 
 def test_an_unknown_gloss_is_refused_by_name(tmp_path: Path) -> None:
@@ -138,6 +132,20 @@ def test_the_table_holds_alphabet_digits_demonstrated_signs_and_every_score_with
     assert [warning for gloss in lut for warning in sign_warnings(lut[gloss])] == []
     # And each in the form in which it would be written.
     assert [gloss for gloss in lut if lut.path(gloss).read_text("utf-8") != format_sign(lut[gloss])] == []
+
+
+def test_no_sign_of_the_table_has_its_thumb_in_a_finger(shipped: Lut) -> None:
+    table = hand_table(Robot.load())
+    deep = {}
+    for gloss, sign in shipped.items():
+        postures = [sign.knots, *sign.alternatives, *(form.knots for form in sign.forms.values())]
+        for hand in (LEFT_HAND, RIGHT_HAND):
+            if hand[0] in sign.joints:
+                columns = [sign.joints.index(name) for name in hand]
+                gap = thumb_gaps(table, np.concatenate(postures)[:, columns]).min()
+                if gap < -TOUCH:
+                    deep[gloss] = f"{1000.0 * gap:.1f} mm"
+    assert deep == {}
 
 
 @pytest.mark.parametrize(

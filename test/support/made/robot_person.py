@@ -16,6 +16,8 @@ FACE = {8: (0.1015, 0.0, 0.640), 51: (0.1015, 0.0, 0.672), 57: (0.1015, 0.0, 0.6
 FACE |= {21: (0.1015, 0.02, 0.736), 22: (0.1015, -0.02, 0.736)}
 NOSE, EYE, EAR = (0.1015, 0.0, 0.695), (0.1015, -0.034, 0.723), (0.0, -0.099, 0.710)
 MIRROR = np.array([1.0, -1.0, 1.0])
+# What the head turns about [m], and its keypoints among the body's: nose, eyes, ears.
+NECK, HEAD_OF_BODY = np.array([0.0, 0.0, 0.63]), (0, 15, 16, 17, 18)
 
 
 def part(positions):
@@ -59,6 +61,12 @@ def keypoints(robot, joints, motion):
     for row, place in FACE.items():
         face[:, row] = place
     return body, np.array(hands["Left"]), np.array(hands["Right"]), face
+
+
+def turn_head(body, face, turns):
+    """Turn the head about the neck from frame to frame, in place. Shape of the turns (T, 3, 3)."""
+    for points, rows in ((body, HEAD_OF_BODY), (face, range(70))):
+        points[:, rows] = np.einsum("tij,tkj->tki", turns, points[:, rows] - NECK) + NECK
 
 
 def track_of(times, points, source="robot"):

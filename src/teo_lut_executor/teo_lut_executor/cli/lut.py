@@ -247,7 +247,7 @@ def compare(
     language: LanguageCode = DEFAULT_LANGUAGE,
 ) -> None:
     """Draw signs beside pictures of them: both ends in one picture, the way as an arrow, touches as rays."""
-    from teo_signs.photo_manner import save_comparison
+    from teo_signs.pictures import save_comparison
 
     if len(pairs) % 2:
         fail(LutError("bad_arguments", f"expected a picture after each gloss, got none after {pairs[-1]!r}"))

@@ -11,37 +11,7 @@ from typing import TYPE_CHECKING, cast
 import typer
 
 from teo_description.humanoid import DEFAULT_ROBOT
-from teo_sign_capture.cli.options import (
-    Accept,
-    AsJson,
-    Bags,
-    Cache,
-    Camera,
-    Dask,
-    Draw,
-    End,
-    Film,
-    Gloss,
-    Hands,
-    KindOption,
-    LanguageCode,
-    Licence,
-    Manifest,
-    Notes,
-    Person,
-    Picture,
-    Replace,
-    RobotName,
-    Seconds,
-    Slop,
-    StandingOption,
-    Start,
-    TableDirectory,
-    Topic,
-    Trial,
-    Workers,
-    known_language,
-)
+from teo_sign_capture.cli import options
 from teo_sign_capture.cli.reporting import JsonReporter, Reporter, TerminalReporter
 from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import LutError
@@ -53,34 +23,34 @@ if TYPE_CHECKING:  # they take a second to load, which the other commands of `lu
 
 
 def capture(
-    bags: Bags = None,
-    gloss: Gloss = None,
-    start: Start = None,
-    end: End = None,
-    robot: RobotName = DEFAULT_ROBOT,
-    language: LanguageCode = DEFAULT_LANGUAGE,
-    lut: TableDirectory = None,
-    replace: Replace = False,
-    person: Person = None,
-    hands: Hands = None,
-    kind: KindOption = "lexical",
-    standing: StandingOption = None,
-    licence: Licence = "not stated: ask the person who signs before passing it on",
-    notes: Notes = "",
-    accept: Accept = False,
-    camera: Camera = None,
-    seconds: Seconds = 5.0,
-    topic: Topic = None,
-    slop: Slop = DEFAULT_SLOP,
-    cache: Cache = None,
-    picture: Picture = None,
-    draw: Draw = True,
-    film: Film = False,
-    trial: Trial = None,
-    manifest: Manifest = None,
-    jobs: Workers = None,
-    dask: Dask = None,
-    as_json: AsJson = False,
+    bags: options.Bags = None,
+    gloss: options.Gloss = None,
+    start: options.Start = None,
+    end: options.End = None,
+    robot: options.RobotName = DEFAULT_ROBOT,
+    language: options.LanguageCode = DEFAULT_LANGUAGE,
+    lut: options.TableDirectory = None,
+    replace: options.Replace = False,
+    person: options.Person = None,
+    hands: options.Hands = None,
+    kind: options.KindOption = "lexical",
+    standing: options.StandingOption = None,
+    licence: options.Licence = options.NOT_STATED,
+    notes: options.Notes = "",
+    accept: options.Accept = False,
+    camera: options.Camera = None,
+    seconds: options.Seconds = 5.0,
+    topic: options.Topic = None,
+    slop: options.Slop = DEFAULT_SLOP,
+    cache: options.Cache = None,
+    picture: options.Picture = None,
+    draw: options.Draw = True,
+    film: options.Film = False,
+    trial: options.Trial = None,
+    manifest: options.Manifest = None,
+    jobs: options.Workers = None,
+    dask: options.Dask = None,
+    as_json: options.AsJson = False,
 ) -> None:
     """Capture a sign from recordings of a person, or every sign of a folder of recordings.
 
@@ -93,7 +63,7 @@ def capture(
     from teo_sign_capture.recordings.recording import default_cache, is_bag
 
     try:
-        language = known_language(robot, language)
+        language = options.known_language(robot, language)
         table = lut or user_lut_directory(language, robot)
         settings = Settings(
             table=table,
@@ -145,7 +115,8 @@ def _filmed(camera: int, gloss: str, seconds: float, reporter: Reporter) -> Path
     from teo_sign_capture.recordings.video import film_name, film_webcam
 
     out = film_name(default_recordings(), gloss)
-    return film_webcam(camera, out, seconds=seconds, on_state=reporter.camera)
+    film_webcam(camera, out, seconds=seconds, on_state=reporter.camera)
+    return out
 
 
 def capture_one(job: CaptureJob, settings: Settings, reporter: Reporter) -> None:

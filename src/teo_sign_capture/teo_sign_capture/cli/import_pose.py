@@ -11,27 +11,12 @@ from typing import Annotated
 import typer
 
 from teo_common.installed_packages import NotOfferedError, offered_command
-from teo_sign_capture.cli.options import (
-    Accept,
-    Draw,
-    End,
-    Hands,
-    KindOption,
-    LanguageCode,
-    Notes,
-    Picture,
-    Replace,
-    StandingOption,
-    Start,
-    TableDirectory,
-    upper_case,
-)
+from teo_sign_capture.cli import options
 from teo_sign_capture.cli.reporting import TerminalReporter, fail
 from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import LutError
 
 _DAY = "%Y-%m-%d"
-_NO_LICENCE = "not stated: ask the person who signs before passing it on"
 
 
 def import_pose(
@@ -39,30 +24,30 @@ def import_pose(
         Path | None, typer.Argument(help="A .pose file: MediaPipe Holistic's or OpenPose's points.")
     ] = None,
     gloss: Annotated[
-        str | None, typer.Option(help="Name of the sign in a .pose file.", callback=upper_case)
+        str | None, typer.Option(help="Name of the sign in a .pose file.", callback=options.upper_case)
     ] = None,
     signwriting: Annotated[
         Path | None,
         typer.Option(help="A dictionary in SignWriting: SignPuddle's .spml, or a TSV of term and FSW."),
     ] = None,
-    start: Start = None,
-    end: End = None,
-    lut: TableDirectory = None,
-    replace: Replace = False,
+    start: options.Start = None,
+    end: options.End = None,
+    lut: options.TableDirectory = None,
+    replace: options.Replace = False,
     person: Annotated[int | None, typer.Option(help="Which of several people, from 0.")] = None,
-    hands: Hands = None,
-    kind: KindOption = "lexical",
-    standing: StandingOption = None,
+    hands: options.Hands = None,
+    kind: options.KindOption = "lexical",
+    standing: options.StandingOption = None,
     recorded: Annotated[
         datetime | None, typer.Option(formats=[_DAY], help="Day of the recording, for the entry.")
     ] = None,
     licence: Annotated[
         str | None, typer.Option(help="Terms of the recording or the dictionary; 'not stated' without it.")
     ] = None,
-    notes: Notes = "",
-    accept: Accept = False,
-    picture: Picture = None,
-    draw: Draw = True,
+    notes: options.Notes = "",
+    accept: options.Accept = False,
+    picture: options.Picture = None,
+    draw: options.Draw = True,
     scores: Annotated[
         Path | None, typer.Option(help="SignWriting: directory for the scores that signs are compiled to.")
     ] = None,
@@ -85,7 +70,7 @@ def import_pose(
             "not tried again, except with --replace."
         ),
     ] = None,
-    language: LanguageCode = DEFAULT_LANGUAGE,
+    language: options.LanguageCode = DEFAULT_LANGUAGE,
     as_json: Annotated[bool, typer.Option("--json", help="SignWriting: tell a program.")] = False,
 ) -> None:
     """Capture a sign from a clip in which a person's points were found, lifted by the lengths of limbs.
@@ -126,23 +111,22 @@ def import_pose(
     from teo_sign_capture.entries.take import Cut
     from teo_signs.look_up_table import user_lut_directory
 
-    table = lut or user_lut_directory(language)
-    settings = Settings(
-        table=table,
-        language=language,
-        replace=replace,
-        kind=kind,
-        standing=standing,
-        licence=licence or _NO_LICENCE,
-        notes=notes,
-        accept=accept,
-        recorded=None if recorded is None else recorded.strftime(_DAY),
-        pictures=(picture or table) if draw else None,
-    )
-    job = CaptureJob(
-        gloss=gloss, bags=(file,), cut=Cut(start=start, end=end), handedness=hands, person=person
-    )
     try:
+        table = lut or user_lut_directory(language)
+        settings = Settings(
+            table=table,
+            language=language,
+            replace=replace,
+            kind=kind,
+            standing=standing,
+            licence=licence or options.NOT_STATED,
+            notes=notes,
+            accept=accept,
+            recorded=None if recorded is None else recorded.strftime(_DAY),
+            pictures=(picture or table) if draw else None,
+        )
+        cut = Cut(start=start, end=end)
+        job = CaptureJob(gloss=gloss, bags=(file,), cut=cut, handedness=hands, person=person)
         capture_one(job, settings, TerminalReporter())
     except LutError as error:
         fail(error)

@@ -66,6 +66,8 @@ StandingOption = Annotated[
     ),
 ]
 Licence = Annotated[str, typer.Option(help="Terms of the recording, for the entry.")]
+# The licence of an entry of which nobody said one.
+NOT_STATED = "not stated: ask the person who signs before passing it on"
 Notes = Annotated[str, typer.Option(help="What a reader must know, for the entry.")]
 Accept = Annotated[
     bool,

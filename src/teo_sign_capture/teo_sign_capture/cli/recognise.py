@@ -15,17 +15,7 @@ from rich.table import Table
 
 from teo_description.errors import DescriptionError
 from teo_description.humanoid import DEFAULT_ROBOT
-from teo_sign_capture.cli.options import (
-    AsJson,
-    Cache,
-    End,
-    Hands,
-    LanguageCode,
-    Person,
-    RobotName,
-    Start,
-    Topic,
-)
+from teo_sign_capture.cli import options
 from teo_sign_capture.cli.reporting import JsonReporter, TerminalReporter, write_json
 from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import LutError
@@ -47,18 +37,18 @@ def recognise(
             "--lut", help="Directory of the table; your own and, beneath it, the package's without it."
         ),
     ] = None,
-    robot_name: RobotName = DEFAULT_ROBOT,
-    language: LanguageCode = DEFAULT_LANGUAGE,
-    start: Start = None,
-    end: End = None,
-    hands: Hands = None,
-    person: Person = None,
-    topic: Topic = None,
-    cache: Cache = None,
+    robot_name: options.RobotName = DEFAULT_ROBOT,
+    language: options.LanguageCode = DEFAULT_LANGUAGE,
+    start: options.Start = None,
+    end: options.End = None,
+    hands: options.Hands = None,
+    person: options.Person = None,
+    topic: options.Topic = None,
+    cache: options.Cache = None,
     meant: Annotated[
         str | None, typer.Option(help="Gloss that was meant: also say what differs from its sign.")
     ] = None,
-    as_json: AsJson = False,
+    as_json: options.AsJson = False,
 ) -> None:
     """Name the signs of the table that look most like a demonstration, with their distances.
 

@@ -71,7 +71,27 @@ class TerminalReporter:
 
     def captured(self, outcome: Outcome) -> None:
         """Say what was captured, how well, and where it is."""
-        tell(outcome)
+        _output.print(f"{outcome.gloss}: {outcome.message}", soft_wrap=True)
+        table = Table(box=None, show_header=False)
+        for name, figure in outcome.quality.items():
+            if name in _SAID_BY_ANOTHER:
+                continue
+            words = name.split("_")
+            unit = {"deg": "°", "percent": "%", "times": "times", "count": ""}.get(words[-1], words[-1])
+            most = most_of(name)
+            verdict = "" if most is None else f"{'good' if figure <= most else 'BAD'}: at most {most:g}"
+            table.add_row(" ".join(words[:-1]), f"{figure:g}", unit, verdict)
+        _output.print(table)
+        for note in filter(None, (outcome.notes, *outcome.warnings)):
+            _output.print(f"note: {note}", markup=False, soft_wrap=True)
+        if outcome.standing == "sketched":
+            _output.print(
+                "standing sketched: the executor spells the word until its least_standing is sketched; "
+                "see --standing",
+                soft_wrap=True,
+            )
+        for path in outcome.files:
+            _output.print(f"wrote {path}", markup=False, soft_wrap=True)
 
     def one_of_many(self, outcome: Outcome) -> None:
         """Say how one sign of a folder ended, unless it is listed at the end."""
@@ -150,28 +170,3 @@ def fail(error: LutError) -> NoReturn:
     """Say what is wrong and end."""
     _errors.print(f"{error.code}: {error}", markup=False, soft_wrap=True)
     raise typer.Exit(1) from error
-
-
-def tell(outcome: Outcome) -> None:
-    """Say what was captured, how well, and where it is."""
-    _output.print(f"{outcome.gloss}: {outcome.message}", soft_wrap=True)
-    table = Table(box=None, show_header=False)
-    for name, figure in outcome.quality.items():
-        if name in _SAID_BY_ANOTHER:
-            continue
-        words = name.split("_")
-        unit = {"deg": "°", "percent": "%", "times": "times", "count": ""}.get(words[-1], words[-1])
-        most = most_of(name)
-        verdict = "" if most is None else f"{'good' if figure <= most else 'BAD'}: at most {most:g}"
-        table.add_row(" ".join(words[:-1]), f"{figure:g}", unit, verdict)
-    _output.print(table)
-    for note in filter(None, (outcome.notes, *outcome.warnings)):
-        _output.print(f"note: {note}", markup=False, soft_wrap=True)
-    if outcome.standing == "sketched":
-        _output.print(
-            "standing sketched: the executor spells the word until its least_standing is sketched; "
-            "see --standing",
-            soft_wrap=True,
-        )
-    for path in outcome.files:
-        _output.print(f"wrote {path}", markup=False, soft_wrap=True)

@@ -134,12 +134,6 @@ def capture_bags(
 ) -> Saved:
     """Capture a sign from its takes and save it.
 
-    Args:
-        robot: The robot.
-        job: The sign.
-        settings: Where to and how.
-        on_progress: Told of the progress.
-
     Raises:
         LutError: "exists", "not_written", or why a recording is no good. Of several takes, those that are no
             good are left out, with the reason in the entry's notes.
@@ -304,20 +298,13 @@ def keep_and_capture(
 ) -> Saved:
     """Write a recording beside the others, then capture it.
 
-    A recording that is no good is kept as well: it shows what went wrong.
-
-    Args:
-        robot: The robot.
-        gloss: Name of the sign.
-        messages: `SkeletonArray` of the recording, in order.
-        recordings: Directory of recordings.
-        settings: Of the capture.
+    The messages are `SkeletonArray` in order, `recordings` is the directory of recordings. A recording that
+    is no good is kept as well: it shows what went wrong.
 
     Raises:
         LutError: "not_written", or what `capture_bags` raises.
     """
-    now = datetime.datetime.now().strftime("%Y%m%dT%H%M%S")
-    path = recordings / f"{gloss_key(gloss)}-{now}.mcap"
+    path = recordings / f"{gloss_key(gloss)}-{datetime.datetime.now():%Y%m%dT%H%M%S}.mcap"
     try:
         recordings.mkdir(parents=True, exist_ok=True)
         write_skeletons(path, messages)

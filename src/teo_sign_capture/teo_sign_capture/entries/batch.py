@@ -105,16 +105,9 @@ def read_manifest(path: Path) -> list[CaptureJob]:
 def run_jobs(
     executor: Executor, jobs: Sequence[CaptureJob], settings: Settings, on_done: Callable[[Outcome], None]
 ) -> list[Outcome]:
-    """Capture signs; one that fails stops no other.
+    """Capture signs where an executor has them done, and return the outcomes by gloss.
 
-    Args:
-        executor: Where the work is done.
-        jobs: The signs.
-        settings: For all of them.
-        on_done: Told of each as it ends.
-
-    Returns:
-        The outcomes, by gloss.
+    One that fails stops no other. `on_done` is told of each as it ends.
     """
     # A worker may have been started elsewhere: names must not depend on where this is.
     here = replace(

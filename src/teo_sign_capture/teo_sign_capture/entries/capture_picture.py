@@ -24,10 +24,11 @@ from teo_signs.pictures import FRAME_RATE, render_sign
 _MOMENTS = 7
 # [px] Width and height of each picture: seven beside each other are as wide as a screen.
 _SIZE = (320, 240)
+_WIDTH, _HEIGHT = _SIZE
 # [px/m] The drawn person fills the height from hands that hang to hands above the head.
-_SCALE = 0.8 * _SIZE[1]
+_SCALE = 0.8 * _HEIGHT
 # [px] Where the origin of the person's axes is drawn, between the shoulders.
-_MIDDLE = (_SIZE[0] // 2, int(0.42 * _SIZE[1]))
+_MIDDLE = (_WIDTH // 2, int(0.42 * _HEIGHT))
 _PAPER, _INK, _RIGHT, _LEFT = (250, 250, 252), (70, 75, 85), (200, 60, 40), (40, 90, 190)
 _TRUNK = ((2, 5), (2, 9), (5, 12), (9, 12), (1, 0), (0, 15), (0, 16), (15, 17), (16, 18))
 _ARMS = {"right": ((2, 3), (3, 4)), "left": ((5, 6), (6, 7))}
@@ -39,13 +40,13 @@ _FINGERS = tuple(
 _Drawer = Callable[[float], Image]
 
 
-def save_capture_picture(path: Path, captured: Captured, recording: Recording | None, cache: Path) -> None:
+def save_capture_picture(path: Path, captured: Captured, recording: Recording, cache: Path) -> None:
     """Draw moments of the demonstration over the same moments of the robot.
 
     Args:
         path: PNG file to write, whole or not at all.
         captured: The sign.
-        recording: The bag of the take that leads; None draws its keypoints, for there are no images.
+        recording: Of the take that leads; where it has no images, its keypoints are drawn.
         cache: Where skeletons found in its images are.
     """
     take, sign = captured.take, captured.sign
@@ -59,11 +60,10 @@ def save_capture_picture(path: Path, captured: Captured, recording: Recording | 
     save_png(path, film_strip(above + below, captions, columns=_MOMENTS))
 
 
-def save_capture_film(path: Path, captured: Captured, recording: Recording | None, cache: Path) -> int:
-    """Film demonstration and robot beside each other, at the speed of the demonstration.
+def save_capture_film(path: Path, captured: Captured, recording: Recording, cache: Path) -> None:
+    """Film demonstration and robot beside each other, at the speed of the demonstration, into an MP4 file.
 
-    Returns:
-        How many frames were written.
+    Arguments are those of `save_capture_picture`.
     """
     take, sign = captured.take, captured.sign
     draw = _drawer(take, recording, cache)
@@ -73,19 +73,17 @@ def save_capture_film(path: Path, captured: Captured, recording: Recording | Non
         np.hstack([draw(share * last), render_sign(sign, share * sign.duration, size=_SIZE)])
         for share in shares
     )
-    return write_video(path, frames, [sign.gloss] * len(shares), frames_per_second=FRAME_RATE)
+    write_video(path, frames, [sign.gloss] * len(shares), frames_per_second=FRAME_RATE)
 
 
-def _drawer(take: SignTake, recording: Recording | None, cache: Path) -> _Drawer:
+def _drawer(take: SignTake, recording: Recording, cache: Path) -> _Drawer:
     start = take.span.start
     end = start + float(take.track.times[-1])
-    if recording is None or (recording.is_flat and recording.has_skeletons):
-        return lambda time: _draw_person(take, time)
-    if recording.is_flat:
-        images = _video_pictures(recording.path, start=start, end=end, size=_SIZE)
-    else:
-        skeletons = skeletons_of(recording, cache)
-        images = _colour_images(recording.path, skeletons, start=start, end=end, size=_SIZE)
+    images: list[_Timed] = []
+    if not recording.is_flat:
+        images = _colour_images(recording.path, skeletons_of(recording, cache), start, end)
+    elif not recording.has_skeletons:
+        images = _video_pictures(recording.path, start, end)
     if not images:
         return lambda time: _draw_person(take, time)
     times = np.array([when for when, _ in images])
@@ -95,7 +93,7 @@ def _drawer(take: SignTake, recording: Recording | None, cache: Path) -> _Drawer
 def _draw_person(take: SignTake, time: float) -> Image:
     """The keypoints of a take at a time, as from the front: the person's left is on the right."""
     frame = int(np.argmin(np.abs(take.track.times - time)))
-    picture = np.full((_SIZE[1], _SIZE[0], 3), _PAPER, np.uint8)
+    picture = np.full((_HEIGHT, _WIDTH, 3), _PAPER, np.uint8)
     body = take.track.body.positions[frame]
     _lines(picture, body, _TRUNK, _INK, 2)
     for side, colour in (("right", _RIGHT), ("left", _LEFT)):
@@ -124,7 +122,8 @@ _NEAREST = 0.1
 _MARGIN = 0.45
 # Nose, right shoulder, elbow and wrist, left shoulder, elbow and wrist in BODY_25.
 _UPPER_BODY = (0, 2, 3, 4, 5, 6, 7)
-_PAPER = (250, 250, 252)
+# An image, and its time from the beginning of the stroke [s].
+_Timed = tuple[float, Image]
 
 
 class _Seen(NamedTuple):
@@ -138,20 +137,10 @@ class _Seen(NamedTuple):
     high: Array
 
 
-def _colour_images(
-    bag: Path, skeletons: Path, *, start: float, end: float, size: tuple[int, int]
-) -> list[tuple[float, Image]]:
-    """Colour images of a stroke, cut out around the person.
+def _colour_images(bag: Path, skeletons: Path, start: float, end: float) -> list[_Timed]:
+    """Colour images of a bag from when to when [s], cut out around the person; nothing where it has none.
 
-    Args:
-        bag: The recording.
-        skeletons: The bag of its skeletons, from which times count.
-        start: Of the stroke [s].
-        end: Of the stroke [s].
-        size: Width and height of the images wanted [px].
-
-    Returns:
-        Time from the beginning of the stroke [s] and image, in order; nothing where the bag has no images.
+    Times count from the first message of the bag of its skeletons.
     """
     # Only who draws needs the code that reads cameras' images.
     from teo_skeleton_retriever.bags.bag_images import choose_topics
@@ -165,57 +154,44 @@ def _colour_images(
     except RetrieverError:
         return []
     seen = _seen(skeletons, start, end)
-    images: list[tuple[float, Image]] = []
+    images: list[_Timed] = []
     for found in opened.messages([topic]):
         time = (stamp_of(found.message) - seen.first) * 1e-9 - start
         if -_NEAREST <= time <= end - start + _NEAREST:
-            image = color_of(found.message)
-            images.append((time, _fitted(_around(image, seen, size), size)))
+            images.append((time, _fitted(_around(color_of(found.message), seen))))
     return images
 
 
-def _video_pictures(
-    video: Path, *, start: float, end: float, size: tuple[int, int]
-) -> list[tuple[float, Image]]:
-    """Whole images of a stroke in a video.
-
-    Args:
-        video: The video.
-        start: Of the stroke [s].
-        end: Of the stroke [s].
-        size: Width and height of the images wanted [px].
-
-    Returns:
-        Time from the beginning of the stroke [s] and image, in order.
-    """
-    images: list[tuple[float, Image]] = []
+def _video_pictures(video: Path, start: float, end: float) -> list[_Timed]:
+    """Whole images of a video from when to when [s]."""
+    images: list[_Timed] = []
     for when, image in video_images(video):
         if when > end + _NEAREST:
             break
         if when >= start - _NEAREST:
-            images.append((when - start, _fitted(image, size)))
+            images.append((when - start, _fitted(image)))
     return images
 
 
-def _fitted(image: Image, size: tuple[int, int]) -> Image:
-    """The whole image in a size [px], with paper beside it where the shapes differ."""
+def _fitted(image: Image) -> Image:
+    """The whole image in the size of a picture, with paper beside it where the shapes differ."""
     height, width = image.shape[:2]
-    share = min(size[0] / width, size[1] / height)
+    share = min(_WIDTH / width, _HEIGHT / height)
     small = cv2.resize(image, (round(width * share), round(height * share)), interpolation=cv2.INTER_AREA)
-    picture = np.full((size[1], size[0], 3), _PAPER, np.uint8)
-    top, left = (size[1] - small.shape[0]) // 2, (size[0] - small.shape[1]) // 2
+    picture = np.full((_HEIGHT, _WIDTH, 3), _PAPER, np.uint8)
+    top, left = (_HEIGHT - small.shape[0]) // 2, (_WIDTH - small.shape[1]) // 2
     picture[top : top + small.shape[0], left : left + small.shape[1]] = small
     return picture
 
 
-def _around(image: Image, seen: _Seen, size: tuple[int, int]) -> Image:
-    """The part of an image that shows the person, in the shape of the size wanted."""
+def _around(image: Image, seen: _Seen) -> Image:
+    """The part of an image that shows the person, in the shape of a picture."""
     if not np.isfinite([seen.low, seen.high]).all():
         return image
     height, width = image.shape[:2]
     middle, span = (seen.low + seen.high) / 2.0, seen.high - seen.low
-    rows = min(max(span[1], span[0] * size[1] / size[0]), height, width * size[1] / size[0])
-    half = np.array([rows * size[0] / size[1], rows]) / 2.0
+    rows = min(max(span[1], span[0] * _HEIGHT / _WIDTH), height, width * _HEIGHT / _WIDTH)
+    half = np.array([rows * _WIDTH / _HEIGHT, rows]) / 2.0
     middle = np.clip(middle, half, np.maximum(np.array([width, height]) - half, half))
     left, top = np.maximum(np.round(middle - half), 0).astype(int)
     right, bottom = np.round(middle + half).astype(int)

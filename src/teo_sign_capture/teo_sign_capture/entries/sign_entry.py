@@ -207,25 +207,26 @@ def _said_shapes(handshapes: Mapping[Side, Sequence[HeldShape]]) -> str:
 def _quality(
     robot: Robot, takes: Sequence[SignTake], sign: Sign, playback: Playback, away: Array
 ) -> dict[str, float]:
-    def usual(errors: str) -> float:
-        """The worse hand's error that 95 of 100 frames keep below, mean of the takes."""
-        found = [getattr(take.motion, errors) for take in takes]
-        hands = [array[:, np.isfinite(array).any(axis=0)] for array in found]
-        return float(np.mean([np.nanpercentile(array, _SHARE, axis=0).max() for array in hands]))
-
-    def on_average(field: str, worse: Callable[[Array], float]) -> float:
-        """Share of the stroke's frames, mean of the takes, of the worse hand."""
+    def of_hands(field: str, figure: Callable[[Array], float]) -> float:
+        """A figure of the hands that take part, shape (T, hands), mean of the takes."""
         found = [getattr(take.motion, field) for take in takes]
-        hands = [array[:, np.isfinite(array).any(axis=0)] for array in found]
-        return float(np.mean([worse(np.nanmean(array, axis=0)) for array in hands]))
+        return float(np.mean([figure(array[:, np.isfinite(array).any(axis=0)]) for array in found]))
+
+    def usual(errors: str) -> float:
+        """The worse hand's error that 95 of 100 frames keep below."""
+        return of_hands(errors, lambda hands: np.nanpercentile(hands, _SHARE, axis=0).max())
+
+    def share(field: str, worse: Callable[[Array], float]) -> float:
+        """Share of the stroke's frames, of the worse hand."""
+        return of_hands(field, lambda hands: worse(np.nanmean(hands, axis=0)))
 
     fingers = np.array([joint not in robot.humanoid.body_joints for joint in sign.joints])
     figures = {
         "place_error_p95_mm": 1000.0 * usual("place_error"),
         **_contact_figure(takes),
-        "major_place_wrong": on_average("wrong_place", np.nanmax),
-        "same_zone_percent": 100.0 * on_average("same_zone", np.nanmin),
-        "same_zone_of_middle_percent": 100.0 * on_average("same_zone_of_middle", np.nanmin),
+        "major_place_wrong": share("wrong_place", np.nanmax),
+        "same_zone_percent": 100.0 * share("same_zone", np.nanmin),
+        "same_zone_of_middle_percent": 100.0 * share("same_zone_of_middle", np.nanmin),
         "palm_error_p95_deg": np.degrees(usual("palm_error")),
         "finger_error_p95_deg": np.degrees(usual("finger_error")),
         "flexion_error_p95_deg": np.degrees(usual("flexion_error")),
@@ -280,7 +281,6 @@ def _worst_moments(take: SignTake, slowest: float) -> dict[str, float]:
     return found | {"stretch_times": take.span.start + slowest * take.span.duration}
 
 
-_KINDS = {"lexical": TokenKind.LEXICAL, "letter": TokenKind.LETTER, "number": TokenKind.NUMBER}
 # The planner passes knots exactly: every so often [s] it is looked at, and within so much it is at one [rad].
 # A joint is no faster than 1 rad/s.
 _KNOT_LOOK, _ON_KNOT = 0.002, 0.001
@@ -329,7 +329,7 @@ def play(robot: Robot, sign: Sign, times: Array, positions: Array) -> Playback:
             style=SigningStyle(least_size=1.0),  # as large as the entry, to be compared with it
             robot=robot,
             least_standing="sketched",
-        ).plan([Token(gloss=sign.gloss, kind=_KINDS[sign.kind])])
+        ).plan([Token(gloss=sign.gloss, kind=TokenKind[sign.kind.upper()])])
     except PlanError as error:
         raise LutError(error.code, f"{sign.gloss}: it cannot be signed: {error}") from error
     _check_limits(robot, sign.gloss, plan)

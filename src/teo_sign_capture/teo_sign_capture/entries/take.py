@@ -7,14 +7,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.robot_motion import RobotMotion, retarget_motion
 from teo_sign_capture.tracks.segmentation import SignSpan, stays_low, the_sign
-from teo_sign_capture.tracks.signer_motion import measure_person, signer_motion
-from teo_sign_capture.tracks.skeleton_track import WRIST, SkeletonTrack
-from teo_sign_capture.tracks.smoothing import Gap, runs, seen, smooth_track
+from teo_sign_capture.tracks.signer_motion import SIDES_OF, measure_person, signer_motion
+from teo_sign_capture.tracks.skeleton_track import WRIST, Flags, SkeletonTrack, seen
+from teo_sign_capture.tracks.smoothing import Gap, runs, smooth_track
 from teo_signs.errors import LutError
 from teo_signs.sign_schema import Handedness, Kind
 
@@ -33,7 +32,6 @@ _SEEN = 0.5
 _LEAST_RATE = 12.0
 # [s] Rounding of sums of times and of stamps; frames are a hundred times as far apart.
 _ROUNDING = 1e-4
-_HANDS = {"right": ("right_hand",), "left": ("left_hand",), "both": ("right_hand", "left_hand")}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -108,7 +106,9 @@ def capture_take(
     gaps = tuple(
         gap
         for gap in smoothed.gaps
-        if gap.part in _HANDS[handedness] and gap.start < span.end and gap.end > span.start
+        if gap.part.removesuffix("_hand") in SIDES_OF[handedness]
+        and gap.start < span.end
+        and gap.end > span.start
     )
     stroke = smoothed.track.between(span.start - _ROUNDING, span.end + _ROUNDING)
     _check_seen(stroke, handedness, offset + span.start)
@@ -163,9 +163,7 @@ def _without_unseen(track: SkeletonTrack, span: SignSpan) -> Handedness:
 def _while_seen(track: SkeletonTrack, span: SignSpan) -> SignSpan:
     """The span without moments at its beginning and end in which a hand is lost, where they are few."""
     stroke = track.between(span.start - _ROUNDING, span.end + _ROUNDING)
-    lost = np.any(
-        [_lost_frames(stroke, part.removesuffix("_hand")) for part in _HANDS[span.handedness]], axis=0
-    )
+    lost = np.any([_lost_frames(stroke, side) for side in SIDES_OF[span.handedness]], axis=0)
     known = np.flatnonzero(~lost)
     if not known.size:
         return span
@@ -175,9 +173,9 @@ def _while_seen(track: SkeletonTrack, span: SignSpan) -> SignSpan:
     return replace(span, start=float(start), end=float(end))
 
 
-def _lost_frames(track: SkeletonTrack, side: str) -> NDArray[np.bool_]:
+def _lost_frames(track: SkeletonTrack, side: str) -> Flags:
     """In which frames a hand's shape is not known. Shape (T,)."""
-    lost: NDArray[np.bool_] = seen(track.hand(side).positions).mean(axis=1) < _SEEN
+    lost: Flags = seen(track.hand(side).positions).mean(axis=1) < _SEEN
     return lost
 
 
@@ -207,29 +205,29 @@ def _check_rate(raw: SkeletonTrack, span: SignSpan) -> None:
 def _check_seen(stroke: SkeletonTrack, handedness: Handedness, start: float) -> None:
     """Refuse a stroke in which a hand is lost and cannot be filled in."""
     end = start + float(stroke.times[-1])
-    for part in _HANDS[handedness]:
-        for first, last in runs(_lost_frames(stroke, part.removesuffix("_hand"))):
+    for side in SIDES_OF[handedness]:
+        for first, last in runs(_lost_frames(stroke, side)):
             raise LutError(
                 "hand_lost",
-                f"{stroke.source}: expected the {part.replace('_', ' ')} in view from {start:.2f} to "
+                f"{stroke.source}: expected the {side} hand in view from {start:.2f} to "
                 f"{end:.2f} s, got it lost from {start + stroke.times[first]:.2f} to "
                 f"{start + stroke.times[last]:.2f} s: record it again, or name the hands with --hands",
             )
 
 
-def _stroke(raw: SkeletonTrack, span: SignSpan) -> NDArray[np.bool_]:
+def _stroke(raw: SkeletonTrack, span: SignSpan) -> Flags:
     return (raw.times >= span.start - _ROUNDING) & (raw.times <= span.end + _ROUNDING)
 
 
 def _lost(raw: SkeletonTrack, span: SignSpan) -> float:
-    hands = [getattr(raw, part).positions[_stroke(raw, span)] for part in _HANDS[span.handedness]]
-    return float(max(((~seen(hand)).mean(axis=1) > 0.5).mean() for hand in hands))
+    stroke = _stroke(raw, span)
+    return float(max(_lost_frames(raw, side)[stroke].mean() for side in SIDES_OF[span.handedness]))
 
 
 def _difference(raw: SkeletonTrack, smooth: SkeletonTrack, span: SignSpan) -> float:
     """By how much the hands of the stroke were moved, root mean square [m]."""
     away = [
-        (getattr(smooth, part).positions - getattr(raw, part).positions)[_stroke(raw, span)]
-        for part in _HANDS[span.handedness]
+        (smooth.hand(side).positions - raw.hand(side).positions)[_stroke(raw, span)]
+        for side in SIDES_OF[span.handedness]
     ]
     return float(np.sqrt(np.nanmean(np.square(np.concatenate(away, axis=1)).sum(axis=2))))

@@ -136,7 +136,7 @@ class CaptureNode(Node):
                     self._robot,
                     request.gloss,
                     messages,
-                    self._recordings(),
+                    Path(self._value("recordings_directory") or default_recordings()),
                     self._settings(request.replace),
                 )
             else:
@@ -182,9 +182,6 @@ class CaptureNode(Node):
             licence=self._value("licence"),
             pictures=Path(self._value("pictures_directory") or table),
         )
-
-    def _recordings(self) -> Path:
-        return Path(self._value("recordings_directory") or default_recordings())
 
     def _check_parameters(self, parameters: list[Parameter]) -> SetParametersResult:
         for parameter in parameters:

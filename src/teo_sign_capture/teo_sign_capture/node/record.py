@@ -14,21 +14,8 @@ from rich.live import Live
 from rich.text import Text
 
 from teo_description.humanoid import DEFAULT_ROBOT
-from teo_sign_capture.cli.options import (
-    Accept,
-    KindOption,
-    LanguageCode,
-    Licence,
-    Notes,
-    Picture,
-    Replace,
-    RobotName,
-    StandingOption,
-    TableDirectory,
-    known_language,
-    upper_case,
-)
-from teo_sign_capture.cli.reporting import fail, tell
+from teo_sign_capture.cli import options
+from teo_sign_capture.cli.reporting import TerminalReporter, fail
 from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import user_lut_directory
@@ -38,18 +25,18 @@ _output = Console(highlight=False)
 
 
 def record(
-    gloss: Annotated[str, typer.Option(help="Name of the sign.", callback=upper_case)],
+    gloss: Annotated[str, typer.Option(help="Name of the sign.", callback=options.upper_case)],
     countdown: Annotated[float, typer.Option(help="Seconds until the sign is to begin.")] = 3.0,
-    robot: RobotName = DEFAULT_ROBOT,
-    language: LanguageCode = DEFAULT_LANGUAGE,
-    lut: TableDirectory = None,
-    replace: Replace = False,
-    kind: KindOption = "lexical",
-    standing: StandingOption = "recorded",
-    licence: Licence = "not stated: ask the person who signs before passing it on",
-    notes: Notes = "",
-    accept: Accept = False,
-    picture: Picture = None,
+    robot: options.RobotName = DEFAULT_ROBOT,
+    language: options.LanguageCode = DEFAULT_LANGUAGE,
+    lut: options.TableDirectory = None,
+    replace: options.Replace = False,
+    kind: options.KindOption = "lexical",
+    standing: options.StandingOption = "recorded",
+    licence: options.Licence = options.NOT_STATED,
+    notes: options.Notes = "",
+    accept: options.Accept = False,
+    picture: options.Picture = None,
     keep: Annotated[
         Path | None, typer.Option(help="Where the recording is kept; the user's cache without it.")
     ] = None,
@@ -68,7 +55,7 @@ def record(
     )
 
     try:
-        language = known_language(robot, language)
+        language = options.known_language(robot, language)
         table = lut or user_lut_directory(language, robot)
         settings = Settings(
             table=table,
@@ -86,7 +73,7 @@ def record(
         messages = _listen(countdown)
         _output.print(f"{len(messages)} images recorded")
         saved = keep_and_capture(Robot.load(robot), gloss, messages, keep or default_recordings(), settings)
-        tell(captured_outcome(saved))
+        TerminalReporter().captured(captured_outcome(saved))
     except LutError as error:
         fail(error)
 

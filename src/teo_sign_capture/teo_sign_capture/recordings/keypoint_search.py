@@ -47,13 +47,7 @@ _Work = Callable[[Path, Path, Progress | None], tuple[str, ...]]
 def _work_apart(
     work: _Work, recording: Path, out: Path, on_progress: Progress | None = None
 ) -> tuple[str, ...]:
-    """Do work on a recording in a process of its own.
-
-    Args:
-        work: A function of a module, which a new process can import.
-        recording: What it reads.
-        out: File that it writes; its folder exists.
-        on_progress: Told of the progress.
+    """Do work on a recording in a process of its own. The work is a function that the process can import.
 
     Raises:
         LutError: What the work raises; "not_retrieved" where the process died.
@@ -266,20 +260,18 @@ def _detected(
             yield first()
 
 
-def person_points(person: object) -> Array:
+def person_points(person: Person2D) -> Array:
     """A person of the detector: x, y, depth, confidence of body, left and right hand. Shape (67, 4)."""
     points = np.zeros((POINTS, 4))
-    parts = (("body", 0, BODY), ("left_hand", BODY, HAND), ("right_hand", BODY + HAND, HAND))
-    for part, start, count in parts:
-        keypoints = getattr(person, part)
+    body, left, right = np.split(points, [BODY, BODY + HAND])
+    for part, keypoints in ((body, person.body), (left, person.left_hand), (right, person.right_hand)):
         if len(keypoints):
-            points[start : start + count, [0, 1, 3]] = keypoints
-        shape = getattr(person, f"{part}_world", None)
+            part[:, [0, 1, 3]] = keypoints
+    if person.body_depth is not None:
+        body[:, 2] = person.body_depth
+    for part, shape in ((left, person.left_hand_world), (right, person.right_hand_world)):
         if shape is not None:
-            points[start : start + count, 2] = shape[:, 2]
-    depth = getattr(person, "body_depth", None)
-    if depth is not None:
-        points[:BODY, 2] = depth
+            part[:, 2] = shape[:, 2]
     return points
 
 

@@ -8,7 +8,7 @@ import enum
 from dataclasses import dataclass
 from typing import Any
 
-from teo_sign_capture.recordings.skeleton_bag import track_of_people
+from teo_sign_capture.recordings.skeleton_bag import stamp_of, track_of_people
 from teo_sign_capture.tracks.segmentation import find_signs
 from teo_signs.errors import LutError
 
@@ -78,7 +78,7 @@ class LiveTake:
         """Keep a message, unless the countdown has still long to go or the recording is over."""
         if self._done or now < self._begins - _BEFORE:
             return
-        if not self.messages or _stamp(message) > _stamp(self.messages[-1]):
+        if not self.messages or stamp_of(message) > stamp_of(self.messages[-1]):
             self.messages.append(message)
 
     def step(self, now: float) -> LiveState:
@@ -105,9 +105,8 @@ class LiveTake:
     def _is_over(self) -> bool:
         if not self.messages:
             return False
-        stamps = [_stamp(message) for message in self.messages]
         try:
-            track = track_of_people(stamps, [message.skeletons for message in self.messages], source="live")
+            track = track_of_people(self.messages, source="live")
         except LutError:
             return False  # nobody to be seen yet
         spans = find_signs(track)
@@ -126,7 +125,3 @@ class LiveTake:
             "no_motion",
             f"expected hands that leave rest and return {waited}, got none: sign after the countdown",
         )
-
-
-def _stamp(message: Any) -> float:
-    return float(message.header.stamp.sec) + 1e-9 * float(message.header.stamp.nanosec)

@@ -24,6 +24,7 @@ import numpy as np
 from teo_common.arrays import Array
 from teo_sign_capture.tracks.skeleton_track import BODY, EAR, EYE, HAND, HIP, SHOULDER
 from teo_signs.errors import LutError
+from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.lifting.clip import Points, PoseClip
 
 # MediaPipe's name of points of BODY_25; the neck and the middle of the hips are means of two, legs are left
@@ -54,22 +55,6 @@ _MEDIAPIPE_HAND = (
     ),
     *(f"PINKY_{joint}" for joint in ("MCP", "PIP", "DIP", "TIP")),
 )
-
-_OPENPOSE_BODY = {
-    0: "Nose",
-    2: "RShoulder",
-    3: "RElbow",
-    4: "RWrist",
-    5: "LShoulder",
-    6: "LElbow",
-    7: "LWrist",
-    9: "RHip",
-    12: "LHip",
-    15: "REye",
-    16: "LEye",
-    17: "REar",
-    18: "LEar",
-}
 
 # As pose-format names them, from the wrist out.
 _OPENPOSE_HAND = (
@@ -113,7 +98,7 @@ _OPENPOSE = _Layout(
     body="pose_keypoints_2d",
     left_hand="hand_left_keypoints_2d",
     right_hand="hand_right_keypoints_2d",
-    body_points=_OPENPOSE_BODY,
+    body_points={row: BODY_25.keypoints[row] for row in _MEDIAPIPE_BODY},
     hand_points=_OPENPOSE_HAND,
 )
 # The layouts that are read.

@@ -80,7 +80,7 @@ def open_recording(path: Path, *, slop: float = DEFAULT_SLOP) -> Recording:
     if is_video(path) or _is_pose_file(path):
         return Recording(
             path=path,
-            digest=digest_of(path),
+            digest=_digest_of(path),
             has_skeletons=_is_pose_file(path),
             is_flat=True,
             rendered=False,
@@ -91,7 +91,8 @@ def open_recording(path: Path, *, slop: float = DEFAULT_SLOP) -> Recording:
             "expected the folder of a bag or a file "
             f"{', '.join((*_BAG_SUFFIXES, *VIDEO_SUFFIXES, _POSE_SUFFIX))}, got {path}",
         )
-    kinds, begins = _topics(path)
+    bag = open_bag(path)
+    kinds = bag.kinds
     skeletons = any(kind == TYPE and not topic.startswith(TRUTH) for topic, kind in kinds.items())
     if not skeletons and not any(kind in _IMAGES for kind in kinds.values()):
         raise LutError(
@@ -101,10 +102,10 @@ def open_recording(path: Path, *, slop: float = DEFAULT_SLOP) -> Recording:
         )
     return Recording(
         path=path,
-        digest=digest_of(path),
+        digest=_digest_of(path),
         has_skeletons=skeletons,
         is_flat=False,
-        rendered=is_rendered(kinds, begins),
+        rendered=is_rendered(kinds, 1e-9 * bag.begins),
         slop=slop,
     )
 
@@ -126,7 +127,7 @@ def _is_pose_file(path: Path) -> bool:
     return path.is_file() and path.suffix == _POSE_SUFFIX
 
 
-def digest_of(path: Path) -> str:
+def _digest_of(path: Path) -> str:
     """SHA-256 of a bag's messages: of its storage files, in order of their names."""
     files = (
         sorted(file for file in path.iterdir() if file.suffix in _BAG_SUFFIXES) if path.is_dir() else [path]
@@ -231,12 +232,6 @@ def _cached(recording: Recording, cache: Path) -> Path:
 
 def _warnings_of(skeletons: Path) -> Path:
     return skeletons.with_suffix(".txt")
-
-
-def _topics(path: Path) -> tuple[dict[str, str], float]:
-    """Types of a bag's topics, and when its first message was received [s]."""
-    bag = open_bag(path)
-    return bag.kinds, 1e-9 * bag.begins
 
 
 def _fill_cache(recording: Recording, out: Path, on_progress: Progress | None) -> None:

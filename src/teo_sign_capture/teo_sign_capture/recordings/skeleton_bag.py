@@ -20,10 +20,12 @@ from teo_sign_capture.tracks.skeleton_track import (
     Keypoints,
     SkeletonTrack,
     in_body_axes,
+    seen,
 )
 from teo_signs.errors import LutError
 from teo_skeleton_retriever.bags.bag_reader import Bag
 from teo_skeleton_retriever.errors import RetrieverError
+from teo_skeleton_retriever.layouts.skeleton_3d import CAMERA_UP
 
 TYPE = "teo_sign_msgs/msg/SkeletonArray"
 # Begins the topics in which a renderer says where everything truly was.
@@ -37,8 +39,6 @@ _NARROWEST, _BROADEST = 0.15, 0.66
 _STATURE = 4.7
 # Stamps before this count from the start of a clock that knows no day, as in simulation.
 _EARLIEST = datetime.datetime(2000, 1, 1, tzinfo=datetime.UTC)
-
-
 # [s] The synthetic signer's takes all begin at this moment of 2023 (`teo_synthetic_signer.take.take_files`,
 # which loads for seconds what draws them), and last no longer: skeletons that were found in its images carry
 # no other sign.
@@ -75,10 +75,9 @@ def read_skeletons(path: Path, *, topic: str | None = None, signer: int | None =
     if not messages:
         told = opened.problem or "none"
         raise LutError("no_skeletons", f"{path.name}: expected messages on {chosen}, got {told}")
-    stamps = [message.header.stamp.sec + 1e-9 * message.header.stamp.nanosec for message in messages]
-    people = [message.skeletons for message in messages]
-    recorded = None if is_rendered(opened.kinds, stamps[0]) else _day(stamps[0])
-    track = track_of_people(stamps, people, source=path.name, signer=signer, recorded=recorded)
+    begins = stamp_of(messages[0])
+    recorded = None if is_rendered(opened.kinds, begins) else _day(begins)
+    track = track_of_people(messages, source=path.name, signer=signer, recorded=recorded)
     _check_size(track)
     return replace(track, damage=opened.problem)
 
@@ -108,6 +107,11 @@ def _check_size(track: SkeletonTrack) -> None:
         )
 
 
+def stamp_of(message: Any) -> float:
+    """When the image of a `SkeletonArray` was taken [s]."""
+    return float(message.header.stamp.sec) + 1e-9 * float(message.header.stamp.nanosec)
+
+
 def write_skeletons(path: Path, messages: Sequence[Any]) -> None:
     """Write `SkeletonArray` messages as a bag, whole or not at all."""
     from teo_skeleton_retriever.output.skeleton_bag import skeleton_bag
@@ -119,18 +123,12 @@ def write_skeletons(path: Path, messages: Sequence[Any]) -> None:
 
 
 def track_of_people(
-    stamps: Sequence[float],
-    people: Sequence[Any],
-    *,
-    source: str,
-    signer: int | None = None,
-    recorded: str | None = None,
+    messages: Sequence[Any], *, source: str, signer: int | None = None, recorded: str | None = None
 ) -> SkeletonTrack:
     """A person's track from messages, wherever they come from.
 
     Args:
-        stamps: Of each message [s].
-        people: `skeletons` of each `SkeletonArray`.
+        messages: `SkeletonArray` in their order, one at least.
         source: Name of where they come from.
         signer: Id of the person; None follows whoever is marked as the signer.
         recorded: Day of the recording if it is known.
@@ -138,18 +136,16 @@ def track_of_people(
     Raises:
         LutError: "no_person", "no_torso", "bad_stamps" or "unreadable_bag".
     """
-    skeletons = [_person(found, signer) for found in people]
+    skeletons = [_person(message.skeletons, signer) for message in messages]
     if all(skeleton is None for skeleton in skeletons):
-        raise LutError("no_person", _nobody(source, people, signer))
-    parts = {name: _keypoints(skeletons, name, size) for name, size in _PARTS.items()}
+        raise LutError("no_person", _nobody(source, [message.skeletons for message in messages], signer))
+    stamps = np.array([stamp_of(message) for message in messages])
     return in_body_axes(
-        times=np.array(stamps) - stamps[0],
-        body=parts["body"],
-        left_hand=parts["left_hand"],
-        right_hand=parts["right_hand"],
-        face=parts["face"],
+        times=stamps - stamps[0],
+        **{name: _keypoints(skeletons, name, size) for name, size in _PARTS.items()},
         source=source,
         recorded=recorded,
+        up=CAMERA_UP,
     )
 
 
@@ -175,10 +171,8 @@ def _topic(bag: Bag, path: Path, wanted: str | None) -> str:
 
 
 def _person(skeletons: Any, signer: int | None) -> Any | None:
-    for skeleton in skeletons:
-        if skeleton.is_signer if signer is None else skeleton.id == signer:
-            return skeleton
-    return None
+    wanted = (one for one in skeletons if (one.is_signer if signer is None else one.id == signer))
+    return next(wanted, None)
 
 
 def _nobody(source: str, people: Sequence[Any], signer: int | None) -> str:
@@ -193,13 +187,8 @@ def _nobody(source: str, people: Sequence[Any], signer: int | None) -> str:
 
 def _keypoints(skeletons: list[Any], part: str, size: int) -> Keypoints:
     frames = len(skeletons)
-    lost = Keypoints.lost(frames, size)
-    positions, sigma, confidence, status = (
-        lost.positions,
-        lost.sigma.copy(),
-        lost.confidence.copy(),
-        lost.status,
-    )
+    positions, status = np.full((frames, size, 3), np.nan), np.zeros((frames, size), np.uint8)
+    sigma, confidence = np.full((2, frames, size), np.nan)
     for frame, skeleton in enumerate(skeletons):
         points = [] if skeleton is None else getattr(skeleton, part)
         if not points:
@@ -214,7 +203,7 @@ def _keypoints(skeletons: list[Any], part: str, size: int) -> Keypoints:
         positions[frame] = [(point.position.x, point.position.y, point.position.z) for point in points]
         sigma[frame] = np.sqrt(np.mean(np.square([point.sigma for point in points]), axis=1))
         confidence[frame] = [point.confidence for point in points]
-    positions[(status == 0) | ~np.isfinite(positions).all(axis=2)] = np.nan
+    positions[(status == 0) | ~seen(positions)] = np.nan
     return Keypoints(positions=positions, sigma=sigma, confidence=confidence, status=status)
 
 

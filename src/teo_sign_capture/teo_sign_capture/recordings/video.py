@@ -138,7 +138,7 @@ def film_webcam(
     seconds: float,
     on_state: Callable[[str], None],
     countdown: int = COUNTDOWN,
-) -> Path:
+) -> None:
     """Count down, film, and write the film with the times at which its images came.
 
     Args:
@@ -147,9 +147,6 @@ def film_webcam(
         seconds: How long to film [s].
         on_state: Told "3", "2", "1", "sign now" and "done".
         countdown: [s].
-
-    Returns:
-        `out`.
 
     Raises:
         LutError: "no_camera" if there is none of that number or it gives no image; "not_written".
@@ -187,7 +184,6 @@ def film_webcam(
             "no_camera", f"expected images of webcam {camera}, got none: is another program using it?"
         )
     on_state("done")
-    return out
 
 
 def _count_down(opened: cv2.VideoCapture, countdown: int, on_state: Callable[[str], None]) -> None:

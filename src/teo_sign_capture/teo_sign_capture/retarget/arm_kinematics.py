@@ -63,13 +63,13 @@ def arm_bounds(humanoid: Humanoid, side: Side | Literal["both"]) -> Bounds:
 
 def mirrored(humanoid: Humanoid, arm: Array) -> Array:
     """The arm, or arms, of the other side that mirror some [rad]. Shape (j,) or (n, j)."""
-    swapped: Array = _signs(humanoid) * arm
+    swapped: Array = _mirror_signs(humanoid, humanoid.arm("right")) * arm
     return swapped
 
 
 def mirrored_hand(humanoid: Humanoid, axes: Array) -> Array:
     """Axes of a left hand that mirrors a right one, or the reverse [rad]. Shape (axes,) or (n, axes)."""
-    swapped: Array = _hand_signs(humanoid) * axes
+    swapped: Array = _mirror_signs(humanoid, humanoid.hand("right")) * axes
     return swapped
 
 
@@ -130,13 +130,8 @@ def _waiting(humanoid: Humanoid) -> Array:
 
 
 @cache
-def _hand_signs(humanoid: Humanoid) -> Array:
-    return humanoid.mirror_signs(humanoid.hand("right"))
-
-
-@cache
-def _signs(humanoid: Humanoid) -> Array:
-    return humanoid.mirror_signs(humanoid.arm("right"))
+def _mirror_signs(humanoid: Humanoid, joints: tuple[str, ...]) -> Array:
+    return humanoid.mirror_signs(joints)
 
 
 # Cosine of the angle within which a joint's axis is an axis of the base, or the normal of the palm: URDFs are

@@ -66,7 +66,7 @@ def search_arms(
     damping, active = np.full(count, _POSTURE_DAMPING), np.arange(count)
     for _ in range(steps):
         at, slope = positions[active], gradient[active]
-        free = ~(((at <= lower + _ON_BOUND) & (slope > 0.0)) | ((at >= upper - _ON_BOUND) & (slope < 0.0)))
+        free = _free(at, slope, lower, upper)
         bent = curvature[active] * (free[:, :, None] & free[:, None])
         bent[:, every, every] += np.where(free, damping[active, None], 1.0)
         step = np.linalg.solve(bent, np.where(free, -slope, 0.0)[..., None])[..., 0]
@@ -82,6 +82,14 @@ def search_arms(
         if not active.size:
             break
     return positions.reshape(len(frames), len(starts), joints), cost.reshape(len(frames), len(starts))
+
+
+def _free(positions: Array, gradient: Array, lower: Array, upper: Array) -> NDArray[np.bool_]:
+    """Which joints do not stand on a bound that they are drawn to. Shape (n, j)."""
+    held = (positions <= lower + _ON_BOUND) & (gradient > 0.0)
+    held |= (positions >= upper - _ON_BOUND) & (gradient < 0.0)
+    free: NDArray[np.bool_] = ~held
+    return free
 
 
 # [s] From one frame to the next that is sought from all starts: valleys change slower than hands move.
@@ -176,7 +184,7 @@ def refine_arms(
         lower, upper = np.maximum(lower, start - trusted), np.minimum(upper, start + trusted)
     if held is not None:
         lower, upper = (np.where(held[:, None], start, end) for end in (lower, upper))
-    prices, farthest = _speed_prices(times), _longest_steps(times)
+    prices, farthest = _speed_prices(times), _SWIFT * np.diff(times)[:, None]
 
     def worth(positions: Array) -> tuple[Quadratic, float]:
         here = problem.whole(positions)
@@ -221,12 +229,6 @@ def _speed_prices(times: Array) -> Array:
     return prices
 
 
-def _longest_steps(times: Array) -> Array:
-    """How far a joint turns from frame to frame without haste [rad]. Shape (T - 1, 1)."""
-    steps: Array = _SWIFT * np.diff(times)[:, None]
-    return steps
-
-
 def _newton_step(
     here: Quadratic,
     positions: Array,
@@ -244,10 +246,7 @@ def _newton_step(
     prices = prices + _HASTE * hasty
     gradient[:-1] -= pull
     gradient[1:] += pull
-    held = ((positions <= lower + _ON_BOUND) & (gradient > 0.0)) | (
-        (positions >= upper - _ON_BOUND) & (gradient < 0.0)
-    )
-    free = ~held
+    free = _free(positions, gradient, lower, upper)
     curvature = here.curvature * (free[:, :, None] & free[:, None])
     diagonal = np.full((count, size), damping)
     diagonal[:-1] += prices

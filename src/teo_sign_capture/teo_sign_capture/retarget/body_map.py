@@ -100,11 +100,9 @@ _HEAD_HELD, _HEAD_LEFT = 0.17, 0.32
 # than the other it is beside it.
 _AT_FACE, _OFF_FACE = 0.12, 0.20
 
-# Names in `signing_space` of a person's places; those aside stand for both sides.
-_MIDDLE = {
-    name: name
-    for name in ("head_top", "forehead", "nose", "mouth", "chin", "throat", "upper_chest", "chest", "belly")
-}
+# A person's places on the midline, and those aside, which stand for both sides, with their names in
+# `signing_space`.
+_MIDDLE = ("head_top", "forehead", "nose", "mouth", "chin", "throat", "upper_chest", "chest", "belly")
 _ASIDE = {"eye": "eye", "ear": "ear", "shoulder": "shoulder", "chest_aside": "other_chest"}
 
 
@@ -203,9 +201,9 @@ class BodyMap:
     def _pairs(self, person: Person) -> tuple[Array, Array]:
         """Places on the person, and the same on TEO. Shapes (k, 3)."""
         ours, theirs = [], []
-        for name, place in _MIDDLE.items():
+        for name in _MIDDLE:
             ours.append(person.places[name])
-            theirs.append(on_skin(self.humanoid, self._boxes, place) * (1.0, 0.0, 1.0))
+            theirs.append(on_skin(self.humanoid, self._boxes, name) * (1.0, 0.0, 1.0))
         for name, place in _ASIDE.items():
             right = on_skin(self.humanoid, self._boxes, place)
             right[1] = -abs(right[1])

@@ -22,6 +22,8 @@ from teo_sign_capture.retarget.collision_terms import (
     CollisionTerms,
     between,
 )
+from teo_sign_capture.tracks.skeleton_track import Flags
+from teo_sign_capture.tracks.smoothing import runs
 from teo_signs.errors import LutError
 
 # [rad] A posture that moves by less keeps its distances to a tenth of a millimetre.
@@ -62,7 +64,7 @@ class _ClearanceSamples:
         return short
 
     @property
-    def tight(self) -> NDArray[np.bool_]:
+    def tight(self) -> Flags:
         """The frames that are too near to something, or from or to which the way is. Shape (T,)."""
         tight = np.zeros(len(self.arms), bool)
         at = self.short > 0.0
@@ -222,7 +224,7 @@ class _Clearing:
         self._bounds = bounds
 
     def spread_apart(
-        self, samples: _ClearanceSamples, wished: Array, around: Array, at_work: NDArray[np.bool_]
+        self, samples: _ClearanceSamples, wished: Array, around: Array, at_work: Flags
     ) -> _ClearanceSamples:
         """Hands away from everything in the frames at work, by a share in each, from how they were wished."""
         start = np.where(at_work[:, None], wished, samples.arms)
@@ -232,8 +234,8 @@ class _Clearing:
     def passed(
         self,
         samples: _ClearanceSamples,
-        at_work: NDArray[np.bool_],
-        careful: NDArray[np.bool_],
+        at_work: Flags,
+        careful: Flags,
         shares: Array,
     ) -> _ClearanceSamples:
         """The frames at work off what they touch, as far as one pass goes."""
@@ -250,7 +252,7 @@ class _Clearing:
         self,
         problem: ArmProblem,
         arms: Array,
-        at_work: NDArray[np.bool_],
+        at_work: Flags,
         *,
         terms: CollisionTerms | None = None,
         shares: Array | None = None,
@@ -258,9 +260,8 @@ class _Clearing:
     ) -> Array:
         """The arms with each run of frames at work solved anew, the frames before and after it held."""
         found = arms.copy()
-        ends = np.flatnonzero(np.diff(np.concatenate([[False], at_work, [False]])))
-        for start, stop in ends.reshape(-1, 2).tolist():
-            part = slice(max(start - 1, 0), min(stop + 1, len(arms)))
+        for first, last in runs(at_work):
+            part = slice(max(first - 1, 0), min(last + 2, len(arms)))
             found[part] = refine_arms(
                 problem.between(part),
                 self._times[part],
@@ -274,12 +275,12 @@ class _Clearing:
         return found
 
 
-def _widened(times: Array, frames: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _widened(times: Array, frames: Flags) -> Flags:
     """Some frames, and what is solved with them."""
     chosen = times[frames]
     if not chosen.size:
         return frames
-    widened: NDArray[np.bool_] = np.abs(times[:, None] - chosen).min(axis=1) <= _GIVE
+    widened: Flags = np.abs(times[:, None] - chosen).min(axis=1) <= _GIVE
     return widened
 
 
@@ -288,7 +289,7 @@ def _shortfall(samples: _ClearanceSamples) -> tuple[float, float]:
     return max(LEAST - float(samples.in_frames.min()), 0.0), max(float(samples.short.max()), 0.0)
 
 
-def _around(times: Array, tight: NDArray[np.bool_]) -> Array:
+def _around(times: Array, tight: Flags) -> Array:
     """1 where a motion is tight, falling to 0 before and after. Shape (T,)."""
     width = _OPENING / float(np.median(np.diff(times))) if len(times) > 1 else 1.0
     wide = maximum_filter1d(tight.astype(float), 2 * int(np.ceil(width)) + 1, mode="constant")
@@ -296,7 +297,7 @@ def _around(times: Array, tight: NDArray[np.bool_]) -> Array:
     return around
 
 
-def _begun_anew(arms: Array, tight: NDArray[np.bool_]) -> Array:
+def _begun_anew(arms: Array, tight: Flags) -> Array:
     """The arms with each posture that is tight replaced by the nearest in time that is not."""
     clear = np.flatnonzero(~tight)
     if not clear.size:

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,13 +55,8 @@ class CollisionTerms:
         """Those in some frames one after the other, and on the ways between these."""
         last = self.frames + (self.shares > 0.0)
         inside = (self.frames >= part.start) & (last < part.stop)
-        return CollisionTerms(
-            frames=self.frames[inside] - part.start,
-            shares=self.shares[inside],
-            distances=self.distances[inside],
-            slopes=self.slopes[inside],
-            positions=self.positions[inside],
-        )
+        kept = CollisionTerms(**{name: values[inside] for name, values in vars(self).items()})
+        return replace(kept, frames=kept.frames - part.start)
 
     def added(self, here: Quadratic, positions: Array) -> Quadratic:
         """A sum of squares with the price of what is too near at positions, shape (T, m) [rad]."""
@@ -124,7 +119,7 @@ class CollisionModel:
         self._others = others
         self._home_trunk = self._trunk(robot.configuration({}))
 
-    def pose(self, frame: int, arms: Array, share: float = 0.0) -> dict[str, float]:
+    def _pose(self, frame: int, arms: Array, share: float) -> dict[str, float]:
         """All joints by name [rad].
 
         Args:
@@ -158,31 +153,23 @@ class CollisionModel:
         return total
 
     def clearance(self, frame: int, arms: Array, share: float = 0.0) -> Clearance:
-        """Smallest distance between parts that must not touch; arguments as for `pose`."""
-        return self._robot.clearance(self._robot.configuration(self.pose(frame, arms, share)))
+        """Smallest distance between parts that must not touch; arguments as for `_pose`."""
+        return self._robot.clearance(self._robot.configuration(self._pose(frame, arms, share)))
 
-    def terms(
-        self,
-        frames: NDArray[np.intp],
-        arms: Array,
-        shares: Array | None = None,
-        *,
-        within: float = WATCHED,
-    ) -> CollisionTerms:
+    def terms(self, frames: NDArray[np.intp], arms: Array, shares: Array, *, within: float) -> CollisionTerms:
         """What is near in some frames, or on the straight ways from them to the next.
 
         Args:
             frames: The frames. Shape (k,).
             arms: Of all frames. Shape (T, m) [rad].
-            shares: Of the ways that are behind; none in the frames themselves. Shape (k,).
+            shares: Of the ways that are behind; 0 in the frames themselves. Shape (k,).
             within: Parts nearer than this are told of [m].
         """
-        shares = np.zeros(len(frames)) if shares is None else shares
         found: list[tuple[int, Contact]] = []
         homes = []
         looked = between(arms, frames, shares)
         for index, (frame, share) in enumerate(zip(frames.tolist(), shares.tolist(), strict=True)):
-            q = self._robot.configuration(self.pose(frame, looked[index], share))
+            q = self._robot.configuration(self._pose(frame, looked[index], share))
             near = self._robot.contacts(q, within)
             if near:
                 home = self._home_trunk @ np.linalg.inv(self._trunk(q))
@@ -202,11 +189,10 @@ class CollisionModel:
             for links, points, sign in ends:
                 placed = np.einsum("kij,kj->ki", turns[:, :3, :3], np.array(points)) + turns[:, :3, 3]
                 slopes += sign * self._approach(links, placed, normals, positions)
-        distances = np.array([contact.distance for _, contact in found])
         return CollisionTerms(
             frames=frames[where],
             shares=shares[where],
-            distances=distances,
+            distances=np.array([contact.distance for _, contact in found]),
             slopes=slopes,
             positions=positions,
         )

@@ -16,10 +16,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
-from scipy.ndimage import gaussian_filter1d
 
 from teo_common.arrays import Array
 from teo_description.humanoid import Side
@@ -28,6 +26,7 @@ from teo_sign_capture.retarget.body_map import BodyMap, smooth_step
 from teo_sign_capture.retarget.head_motion import HeadMotion
 from teo_sign_capture.signing_space import COUNT, HEEL, MIRROR, PALM
 from teo_sign_capture.tracks.signer_motion import SignerArm
+from teo_sign_capture.tracks.skeleton_track import smoothed
 
 # [m] Points of a hand whose distances to the body differ by less than this share the contact: about a
 # finger's width.
@@ -110,25 +109,8 @@ class PairGoals:
     order: Array
 
 
-class _ContactPart(NamedTuple):
-    """The point of a hand that counts, and how much it is on the body.
-
-    Attributes:
-        shares: Of each point of the hand in it. Shape (T, COUNT).
-        contact: 1 on the body, 0 in the air. Shape (T,).
-    """
-
-    shares: Array
-    contact: Array
-
-    def point(self, points: Array) -> Array:
-        """That point among those of a hand, a person's or a robot's. Shapes (T, COUNT, 3) and (T, 3)."""
-        point: Array = (self.shares[:, :, None] * points).sum(axis=1)
-        return point
-
-
-def _contact_part(body: BodyMap, head: HeadMotion, points: Array) -> _ContactPart:
-    """Find the point that counts.
+def _contact(body: BodyMap, head: HeadMotion, points: Array) -> tuple[Array, Array]:
+    """Find the point of a hand that counts.
 
     The end of the hand at the wrist touches nothing: on an arm that is folded it is near the chest while the
     hand is held up in the air, as letters are.
@@ -137,6 +119,10 @@ def _contact_part(body: BodyMap, head: HeadMotion, points: Array) -> _ContactPar
         body: The map from the person to TEO.
         head: The heads of both.
         points: Of the person's hand, in the axes of the track [m]. Shape (T, COUNT, 3).
+
+    Returns:
+        Shares of the points in the one that counts, and how much it is on the body, 0 to 1. Shapes
+        (T, COUNT), (T,).
     """
     away = np.where(np.arange(COUNT) == HEEL, np.inf, body.distance(points, head))
     nearest = away.min(axis=1)
@@ -144,7 +130,7 @@ def _contact_part(body: BodyMap, head: HeadMotion, points: Array) -> _ContactPar
     touching = np.exp((nearest[:, None] - away) / _BLEND)
     touching /= touching.sum(axis=1, keepdims=True)
     shares = contact[:, None] * touching + (1.0 - contact[:, None]) * (np.arange(COUNT) == PALM)
-    return _ContactPart(shares, contact)
+    return shares, contact
 
 
 def hand_goals(body: BodyMap, head: HeadMotion, arm: SignerArm, teo: Array) -> tuple[HandGoals, Array]:
@@ -160,16 +146,16 @@ def hand_goals(body: BodyMap, head: HeadMotion, arm: SignerArm, teo: Array) -> t
         The goals, and the point of the person's hand whose place counts, in the axes of the track [m], shape
         (T, 3).
     """
-    part = _contact_part(body, head, arm.points)
-    meant = part.point(arm.points)
+    shares, contact = _contact(body, head, arm.points)
+    meant = _mean(shares, arm.points)
     place = body.outside(body.place_with_head(meant[:, None], head)[:, 0])
     flip = MIRROR if arm.side == "left" else np.ones(3)
     limbs = np.diff(arm.joints, axis=1) * flip
     limbs /= np.linalg.norm(limbs, axis=2, keepdims=True)
     goals = HandGoals(
-        local=part.point(teo),
+        local=_mean(shares, teo),
         place=place * flip,
-        contact=part.contact,
+        contact=contact,
         palm=arm.axes[:, :, 2],
         fingers=arm.axes[:, :, 0],
         upper_arm=limbs[:, 0],
@@ -192,11 +178,10 @@ def pair_goals(
     """
     right, left = arms["right"], arms["left"]
     of_right, of_left, nearest = _shares(right.points, left.points)
-    way = (of_right[..., None] * right.points).sum(axis=1) - (of_left[..., None] * left.points).sum(axis=1)
     return PairGoals(
-        right=(of_right[..., None] * teo["right"]).sum(axis=1),
-        left=(of_left[..., None] * teo["left"]).sum(axis=1),
-        way=way * body.scale,
+        right=_mean(of_right, teo["right"]),
+        left=_mean(of_left, teo["left"]),
+        way=(_mean(of_right, right.points) - _mean(of_left, left.points)) * body.scale,
         nearness=smooth_step((_APART - nearest) / (_APART - _TOGETHER)),
         order=_order(times, right, left),
     )
@@ -211,16 +196,21 @@ def _shares(right: Array, left: Array) -> tuple[Array, Array, Array]:
     return shares.sum(axis=2), shares.sum(axis=1), nearest
 
 
+def _mean(shares: Array, points: Array) -> Array:
+    """The mean of points that count by their shares. Shapes (T, k), (T, k, 3), (T, 3)."""
+    mean: Array = (shares[..., None] * points).sum(axis=1)
+    return mean
+
+
 def _order(times: Array, right_arm: SignerArm, left_arm: SignerArm) -> Array:
     """As `PairGoals.order`; of arms that cross only what is before and above, for beside leads nowhere."""
     right, left = (_forearm_and_hand(arm) for arm in (right_arm, left_arm))
     of_right, of_left, nearest = _shares(right, left)
-    way = (of_right[..., None] * right).sum(axis=1) - (of_left[..., None] * left).sum(axis=1)
+    way = _mean(of_right, right) - _mean(of_left, left)
     way /= np.maximum(np.linalg.norm(way, axis=1, keepdims=True), 1e-6)
     way[:, 1] = np.minimum(way[:, 1], 0.0)
     way[:, 0] += _UNDECIDED
-    width = _STEADY / float(np.median(np.diff(times))) if len(times) > 1 else 1.0
-    steady = gaussian_filter1d(way, width, axis=0, mode="nearest")
+    steady = smoothed(times, way, _STEADY)
     near = smooth_step((_ASUNDER - nearest) / (_ASUNDER - _BESIDE))
     order: Array = near[:, None] * steady / np.maximum(np.linalg.norm(steady, axis=1, keepdims=True), 1e-6)
     return order

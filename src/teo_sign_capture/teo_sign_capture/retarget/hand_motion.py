@@ -53,15 +53,19 @@ def follow_hand(table: HandTable, times: Array, arm: SignerArm) -> HandMotion:
         times: Of the frames [s]. Shape (T,).
         arm: The person's, with its hand.
     """
-    local, bends = arm.local, arm.bends
+    bends, rows = arm.bends, finger_rows(table.hand)
     fingers = finger_flexions(table, bends)
-    bones = [np.linalg.norm(np.diff(local[:, row : row + 4], axis=1), axis=2).sum(axis=1) for row in KNUCKLES]
-    scaled = local * (table.hand.finger_length / float(np.median(bones)))
-    first = KNUCKLES[finger_rows(table.hand)[0]]
+    scaled = arm.local * (table.hand.finger_length / finger_length(arm))
+    first = KNUCKLES[rows[0]]
     thumb = follow_thumb(table, times, fingers, scaled - scaled[:, first, None])
-    rows = finger_rows(table.hand)
-    error = np.abs(bends[:, rows].sum(axis=2) - _whole_bends(table, fingers)).mean(axis=1) / 3.0
+    error = np.abs(bends[:, rows].sum(axis=2) - _whole_bends(table, fingers)).mean(axis=1) / _FINGER_JOINTS
     return HandMotion(np.concatenate([thumb, fingers], axis=1), error)
+
+
+def finger_length(arm: SignerArm) -> float:
+    """Length of a person's fingers, median of the four and of the frames [m]."""
+    fingers = [arm.local[:, row : row + 4] for row in KNUCKLES]
+    return float(np.median([np.linalg.norm(np.diff(one, axis=1), axis=2).sum(axis=1) for one in fingers]))
 
 
 def finger_flexions(table: HandTable, bends: Array) -> Array:
@@ -88,12 +92,7 @@ def finger_flexions(table: HandTable, bends: Array) -> Array:
 
 
 def _whole_bends(table: HandTable, fingers: Array) -> Array:
-    """By how much fingers are bent from the knuckle to the tip, all joints added [rad].
-
-    Args:
-        table: The robot's hand.
-        fingers: Flexions [rad]. Shape (T, fingers).
-    """
+    """By how much fingers of some flexions bend from knuckle to tip [rad]. Shapes (T, fingers)."""
     last = table.fingers[:, :, 3] - table.fingers[:, :, 2]
     whole = np.unwrap(np.arctan2(last[..., 2], last[..., 0]), axis=0)
     bends = [np.interp(column, table.flexions, row) for column, row in zip(fingers.T, whole.T, strict=True)]
@@ -171,8 +170,7 @@ def follow_thumb(table: HandTable, times: Array, fingers: Array, person: Array) 
         times: [s]. Shape (T,).
         fingers: Flexions of the robot's fingers [rad]. Shape (T, fingers).
         person: The person's 21 keypoints in palm axes from the knuckle of the first of these fingers, in the
-            robot's size [m].
-            Shape (T, 21, 3).
+            robot's size [m]. Shape (T, 21, 3).
 
     Returns:
         [rad]. Shape (T, 2).

@@ -22,7 +22,13 @@ import numpy as np
 from teo_common.arrays import Array
 from teo_description.hand_geometry import HandTable, hand_table, with_clear_thumb
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.hand_motion import THUMB_TIP, HandMotion, finger_flexions, follow_thumb
+from teo_sign_capture.retarget.hand_motion import (
+    THUMB_TIP,
+    HandMotion,
+    finger_flexions,
+    finger_length,
+    follow_thumb,
+)
 from teo_sign_capture.signing_space import WRITTEN_FOR, finger_rows
 from teo_sign_capture.tracks.signer_motion import SignerArm
 from teo_sign_capture.tracks.skeleton_track import smoothed
@@ -174,21 +180,15 @@ def shape_chances(arm: SignerArm) -> Array:
         In all 1, but for the chance that it has none of them. Shape (T, shapes).
     """
     hands, signs = _person_hands()
-    apart = ((_features(*_bends_and_tip(arm))[:, None] - hands) ** 2).sum(axis=2)
+    tip = (arm.local[:, THUMB_TIP] - arm.local[:, INDEX]) / finger_length(arm)
+    apart = ((_features(arm.bends, tip)[:, None] - hands) ** 2).sum(axis=2)
     chances = signs / signs.max() * np.exp(-apart / 2.0)
     shares: Array = chances / (chances.sum(axis=1, keepdims=True) + np.exp(-(_OTHER**2) / 2.0))
     return shares
 
 
-def _bends_and_tip(arm: SignerArm) -> tuple[Array, Array]:
-    """Bends of an arm's fingers [rad], and the thumb's tip [lengths of a finger]. (T, 4, 3), (T, 3)."""
-    local = arm.local
-    bones = [np.linalg.norm(np.diff(local[:, row : row + 4], axis=1), axis=2).sum(axis=1) for row in KNUCKLES]
-    return arm.bends, (local[:, THUMB_TIP] - local[:, INDEX]) / float(np.median(bones))
-
-
 def _features(bends: Array, tip: Array) -> Array:
-    """Hands in deviations. Shapes (n, 4, 3), (n, 3), (n, 11)."""
+    """Hands in deviations; the thumb's tip in lengths of a finger. Shapes (n, 4, 3), (n, 3), (n, 11)."""
     return np.concatenate(
         [bends[..., 0] / _KNUCKLE, bends[..., 1:].sum(axis=2) / _BEYOND, tip / _TIP], axis=1
     )

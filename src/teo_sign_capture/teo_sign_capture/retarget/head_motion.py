@@ -51,7 +51,7 @@ def follow_head(robot: Robot, head: HeadPose, person: Person) -> HeadMotion:
     A head that is not seen in half of the frames takes no part.
     """
     places = np.where(np.isfinite(head.places), head.places, person.head)
-    axes, turns, moves, error = _followed(
+    followed = _followed(
         robot,
         Rotation.from_matrix(head.turns),
         robot.humanoid.file.groups.head,
@@ -64,51 +64,49 @@ def follow_head(robot: Robot, head: HeadPose, person: Person) -> HeadMotion:
         if last
         else find_place(robot.humanoid, "throat").point
     )
-    return HeadMotion(head.turns, places, turns.as_matrix(), pivot, axes, moves, error)
+    return HeadMotion(
+        head.turns, places, followed.turns.as_matrix(), pivot, followed.axes, followed.moves, followed.error
+    )
 
 
-class TrunkMotion(NamedTuple):
-    """A robot's trunk over time.
+class JointMotion(NamedTuple):
+    """A robot's head or trunk over time.
 
     Attributes:
-        axes: Of the joints of the robot's trunk [rad]. Shape (T, k).
+        axes: Of its joints [rad]. Shape (T, k).
+        turns: How these turn it, T of them.
         moves: Whether it moves.
-        error: Angle that is left to the person's trunk [rad]. Shape (T,).
+        error: Angle that is left to the person's [rad]. Shape (T,).
     """
 
     axes: Array
+    turns: Rotation
     moves: bool
     error: Array
 
 
-def follow_trunk(robot: Robot, trunk: Array) -> TrunkMotion:
+def follow_trunk(robot: Robot, trunk: Array) -> JointMotion:
     """Let the robot's trunk follow, as far as its joints go.
 
     Args:
         robot: The robot.
         trunk: `SkeletonTrack.trunk`, zeros where it is not known [rad]. Shape (T, 3).
     """
-    axes, _, moves, error = _followed(robot, Rotation.from_rotvec(trunk), robot.humanoid.file.groups.trunk)
-    return TrunkMotion(axes, moves, error)
+    return _followed(robot, Rotation.from_rotvec(trunk), robot.humanoid.file.groups.trunk)
 
 
 # The axes about which joints turn, as Euler angles are written about moving axes.
 _LETTERS = {"yaw": "Z", "pitch": "Y", "roll": "X"}
 
 
-def _followed(
-    robot: Robot, person: Rotation, joints: Turning, *, taking_part: bool = True
-) -> tuple[Array, Rotation, bool, Array]:
-    """Joints that turn, their turn, whether they move, and the angle left to the person's.
+def _followed(robot: Robot, person: Rotation, joints: Turning, *, taking_part: bool = True) -> JointMotion:
+    """Let joints follow.
 
     Args:
         robot: The robot.
         person: T turns of the person's.
         joints: By what they do, yaw, pitch or roll; the first carries the others.
         taking_part: Whether they may move at all.
-
-    Returns:
-        Positions of the joints [rad], shape (T, k), T turns, whether any moves, and angles [rad], shape (T,).
     """
     names = tuple(joints.values())
     order = "".join(_LETTERS[way] for way in joints)
@@ -120,4 +118,4 @@ def _followed(
     moves = taking_part and bool(np.abs(wanted).max(initial=0.0) >= _MOVES)
     axes = np.clip(signs * wanted, limits.lower, limits.upper) if moves else np.zeros_like(wanted)
     turns = Rotation.from_euler(order, signs * axes) if order else Rotation.identity(len(person))
-    return axes, turns, moves, (turns.inv() * person).magnitude()
+    return JointMotion(axes, turns, moves, (turns.inv() * person).magnitude())

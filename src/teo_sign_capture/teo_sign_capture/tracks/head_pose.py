@@ -7,11 +7,20 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from teo_common.arrays import Array
-from teo_sign_capture.tracks.skeleton_track import BODY, EAR, EYE, FACE, NOSE, SkeletonTrack, filled
+from teo_sign_capture.tracks.skeleton_track import (
+    BODY,
+    EAR,
+    EYE,
+    FACE,
+    NOSE,
+    Flags,
+    SkeletonTrack,
+    filled,
+    seen,
+)
 
 # Deviation of each keypoint of the head from a rigid head [m]; body's first, then the face's: contour of the
 # jaw, brows, bridge and wings of the nose, eyes, mouth, pupils. Infinite for what is not of the head. Jaw and
@@ -67,7 +76,7 @@ class HeadPose(NamedTuple):
 
     turns: Array
     places: Array
-    seen: NDArray[np.bool_]
+    seen: Flags
 
 
 class _Points(NamedTuple):
@@ -75,7 +84,7 @@ class _Points(NamedTuple):
 
     places: Array
     sigma: Array
-    known: NDArray[np.bool_]
+    known: Flags
 
 
 def head_shape(track: SkeletonTrack) -> Array:
@@ -117,7 +126,7 @@ def _points(track: SkeletonTrack) -> _Points:
     places = np.concatenate([track.body.positions, track.face.positions], axis=1)
     sigma = np.concatenate([track.body.sigma, track.face.sigma], axis=1)
     status = np.concatenate([track.body.status, track.face.status], axis=1)
-    known = _known(places) & (status != _HELD) & _HEAD
+    known = seen(places) & (status != _HELD) & _HEAD
     return _Points(places, np.hypot(np.where(np.isfinite(sigma), sigma, _UNKNOWN_SIGMA), _GIVE), known)
 
 
@@ -127,23 +136,21 @@ def _straightened(points: Array, turns: Array, places: Array) -> Array:
     return straight
 
 
-def _held(
-    times: Array, points: _Points, shape: Array, *, rounds: int
-) -> tuple[Array, Array, NDArray[np.bool_]]:
+def _held(times: Array, points: _Points, shape: Array, *, rounds: int) -> tuple[Array, Array, Flags]:
     """Turns and places that bring a shape onto what was seen, and in which frames enough of it was."""
-    known = points.known & _known(shape)
-    seen, model = np.where(known[..., None], points.places, 0.0), np.nan_to_num(shape)
+    known = points.known & seen(shape)
+    there, model = np.where(known[..., None], points.places, 0.0), np.nan_to_num(shape)
     precise = known / np.square(np.where(known, points.sigma, 1.0))
-    turns, places = _aligned(model, seen, precise)
+    turns, places = _aligned(model, there, precise)
     fitting = known
     for _ in range(rounds - 1):
-        off = np.linalg.norm(_straightened(seen, turns, places) - model, axis=2) / points.sigma
+        off = np.linalg.norm(_straightened(there, turns, places) - model, axis=2) / points.sigma
         fitting = known & (off < _OFF * np.sqrt(3.0))
         # While most is off, the half that is least off leads to the head.
         usual = _median(np.where(known, off, np.nan).T)[:, None]
         counts = 1.0 / np.square(1.0 + np.square(off / np.fmax(usual, _QUARTER)))
-        turns, places = _aligned(model, seen, precise * counts)
-    least = max(_LEAST_POINTS, _SEEN * np.count_nonzero(_known(shape)))
+        turns, places = _aligned(model, there, precise * counts)
+    least = max(_LEAST_POINTS, _SEEN * np.count_nonzero(seen(shape)))
     enough = (fitting.sum(axis=1) >= least) & (np.abs(_yaw(turns)) <= _NECK_RANGE)
     enough[enough] = _reachable(times[enough], turns[enough])
     if enough.any() and not enough.all():
@@ -156,7 +163,7 @@ def _yaw(turns: Array) -> Array:
     return np.arctan2(turns[:, 1, 0], turns[:, 0, 0])
 
 
-def _reachable(times: Array, turns: Array) -> NDArray[np.bool_]:
+def _reachable(times: Array, turns: Array) -> Flags:
     """The most frames that a neck can take one after the other. Shape (T,)."""
     # Whatever is longer ago than this is within reach.
     far = np.pi / _NECK_RATE
@@ -178,22 +185,22 @@ def _reachable(times: Array, turns: Array) -> NDArray[np.bool_]:
     return kept
 
 
-def _aligned(shape: Array, seen: Array, weights: Array) -> tuple[Array, Array]:
+def _aligned(shape: Array, there: Array, weights: Array) -> tuple[Array, Array]:
     """Rotations and places that bring a shape onto what was seen (Kabsch, Acta Cryst. 1976)."""
     total = weights.sum(axis=1)[:, None]
     total = np.where(total > 0.0, total, 1.0)
-    from_middle, to_middle = weights @ shape / total, (weights[..., None] * seen).sum(axis=1) / total
+    from_middle, to_middle = weights @ shape / total, (weights[..., None] * there).sum(axis=1) / total
     from_mean = shape - from_middle[:, None]
-    spread = np.einsum("tk,tki,tkj->tij", weights, seen - to_middle[:, None], from_mean)
+    spread = np.einsum("tk,tki,tkj->tij", weights, there - to_middle[:, None], from_mean)
     left, _, right = np.linalg.svd(spread)
     # Where the points say nothing of a direction, the sign is what makes a rotation.
-    signs = np.ones((len(seen), 3))
+    signs = np.ones((len(there), 3))
     signs[:, 2] = np.sign(np.linalg.det(left @ right))
     turns: Array = (left * signs[:, None]) @ right
     return turns, to_middle - np.einsum("tij,tj->ti", turns, from_middle)
 
 
-def _everywhere(times: Array, turns: Array, places: Array, known: NDArray[np.bool_]) -> tuple[Array, Array]:
+def _everywhere(times: Array, turns: Array, places: Array, known: Flags) -> tuple[Array, Array]:
     """The same with frames filled in where the head was not seen."""
     vectors = Rotation.from_matrix(turns).as_rotvec()
     vectors[~known], places = np.nan, np.where(known[:, None], places, np.nan)
@@ -227,14 +234,9 @@ def _way(start: Array, end: Array) -> Array:
 def _middle(shape: Array) -> Array:
     """The middle of the head: between the ears; where they are not seen, of all that is. Shape (3,)."""
     ears = shape[list(EAR.values())]
-    seen = ears if np.isfinite(ears).all() else shape[np.isfinite(shape).all(axis=1)]
-    middle: Array = seen.mean(axis=0)
+    points = ears if np.isfinite(ears).all() else shape[seen(shape)]
+    middle: Array = points.mean(axis=0)
     return middle
-
-
-def _known(points: Array) -> NDArray[np.bool_]:
-    """Which points are known. Shapes (..., 3) and (...)."""
-    return np.asarray(np.isfinite(points).all(axis=-1))
 
 
 def _median(values: Array) -> Array:

@@ -16,19 +16,21 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.ndimage import gaussian_filter1d
 
 from teo_common.arrays import Array
-from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
-from teo_sign_capture.tracks.smoothing import runs, seen
+from teo_sign_capture.tracks.skeleton_track import (
+    ELBOW,
+    SHOULDER,
+    WRIST,
+    Flags,
+    SkeletonTrack,
+    seen,
+    smoothed,
+)
+from teo_sign_capture.tracks.smoothing import runs
 from teo_signs.errors import LutError
 from teo_signs.sign_schema import Handedness
 
-Flags = NDArray[np.bool_]
-
-# Shoulder, elbow and wrist in BODY_25.
-_ARMS = {"right": (2, 3, 4), "left": (5, 6, 7)}
 # [m] Shoulder to wrist of an adult, where the arm's own length is not seen.
 _REACH = 0.52
 
@@ -145,7 +147,7 @@ def find_signs(
             f"{times[-1]:.2f} s",
         )
     reach = _reach(track)
-    away = {side: _distance_from_rest(track, side, reach) for side in _ARMS}
+    away = {side: _distance_from_rest(track, side, reach) for side in WRIST}
     out = np.logical_or(*(_has_left(distance) for distance in away.values()))
     out[:begin] = out[stop:] = False
     # A short rest between two beats joins what is around it.
@@ -210,8 +212,8 @@ def the_sign(
 def _reach(track: SkeletonTrack) -> float:
     """Length of the arm, elbow stretched [m]."""
     lengths = []
-    for arm in _ARMS.values():
-        points = track.body.positions[:, arm]
+    for side in WRIST:
+        points = track.body.positions[:, [SHOULDER[side], ELBOW[side], WRIST[side]]]
         upper, fore = np.linalg.norm(np.diff(points, axis=1), axis=-1).T
         if np.isfinite(upper).any() and np.isfinite(fore).any():
             lengths.append(float(np.nanmedian(upper) + np.nanmedian(fore)))
@@ -220,14 +222,14 @@ def _reach(track: SkeletonTrack) -> float:
 
 def stays_low(track: SkeletonTrack, side: str) -> bool:
     """Whether a wrist, where it is seen, stays below the space in which people sign."""
-    heights = track.body.positions[:, _ARMS[side][2], 2]
+    heights = track.body.positions[:, WRIST[side], 2]
     known = heights[np.isfinite(heights)]
     return bool(known.size) and float(np.percentile(known, 95.0)) < -_LOW * _reach(track)
 
 
 def _distance_from_rest(track: SkeletonTrack, side: str, reach: float) -> Array:
     """How far a wrist is from where it rests [reach]; 0 while it is lost low, NaN while lost high."""
-    wrist = track.body.positions[:, _ARMS[side][2]] / reach
+    wrist = track.body.positions[:, WRIST[side]] / reach
     known = seen(wrist)
     if not known.any():
         return np.zeros(len(wrist))  # an arm that is never seen hangs out of the image
@@ -304,11 +306,11 @@ def _span(
 
 def _is_used(track: SkeletonTrack, side: str, inside: slice, reach: float) -> bool:
     """Whether a hand moves, or is where the other one comes to; else it rests, wherever it is held."""
-    wrists = {name: track.body.positions[:, arm[2]] / reach for name, arm in _ARMS.items()}
-    own = wrists[side]
-    other = wrists["left" if side == "right" else "right"][inside]
+    own, other = (
+        track.body.positions[:, WRIST[one]] / reach for one in (side, "left" if side == "right" else "right")
+    )
     with np.errstate(invalid="ignore"):
-        near = np.linalg.norm(own[inside] - other, axis=-1) < _MEETS
+        near = np.linalg.norm((own - other)[inside], axis=-1) < _MEETS
     known = own[seen(own)]
     return bool(near.any() or (len(known) > 0 and np.linalg.norm(np.ptp(known, axis=0)) >= _LEAST_WAY))
 
@@ -318,11 +320,10 @@ def _speed(track: SkeletonTrack, sides: list[str]) -> Array:
     times = track.times
     if len(times) < 2:
         return np.zeros(len(times))
-    wrists = track.body.positions[:, [_ARMS[side][2] for side in sides]]
+    wrists = track.body.positions[:, [WRIST[side] for side in sides]]
     velocity = np.gradient(wrists, times, axis=0)
     speed = np.nan_to_num(np.linalg.norm(velocity, axis=-1)).max(axis=1)
-    smooth: Array = gaussian_filter1d(speed, _SPEED_WIDTH / float(np.median(np.diff(times))), mode="nearest")
-    return smooth
+    return smoothed(times, speed, _SPEED_WIDTH)
 
 
 def _from_the_front(track: SkeletonTrack) -> SkeletonTrack:
@@ -335,8 +336,7 @@ def _aside(track: SkeletonTrack, side: str, reach: float) -> Flags:
     times, distance = track.times, reach * _distance_from_rest(track, side, reach)
     if len(times) < 2:
         return np.zeros(len(times), dtype=bool)
-    width = _SPEED_WIDTH / float(np.median(np.diff(times)))
-    straight = np.abs(np.gradient(gaussian_filter1d(distance, width, mode="nearest"), times))
+    straight = np.abs(np.gradient(smoothed(times, distance, _SPEED_WIDTH), times))
     with np.errstate(invalid="ignore"):
         aside: Flags = straight < _STRAIGHT * _speed(track, [side])
         return aside & (distance > _FAR * np.nanmax(distance, initial=0.0))

@@ -24,6 +24,7 @@ from teo_sign_capture.tracks.skeleton_track import (
     WRIST,
     SkeletonTrack,
     filled,
+    seen,
 )
 from teo_signs.errors import LutError
 from teo_signs.sign_schema import Handedness
@@ -141,7 +142,7 @@ def measure_person(track: SkeletonTrack) -> Person:
 def _facial_places(shape: Array, middle: Array, trunk: float) -> dict[str, Array]:
     """Places of the head from its keypoints; those not seen keep their distance from one that is."""
     usual = {name: trunk * np.array(place) for name, place in _HEAD.items()}
-    seen = {
+    found = {
         "nose": _between(shape[[NOSE]]),
         "eye": _aside(shape, EYE),
         "ear": _aside(shape, EAR),
@@ -149,11 +150,11 @@ def _facial_places(shape: Array, middle: Array, trunk: float) -> dict[str, Array
         "mouth": _between(shape[list(_LIPS)]),
         "brow": _between(shape[list(_BROWS)]),
     }
-    known = [name for name, place in seen.items() if np.isfinite(place).all()]
+    known = [name for name, place in found.items() if np.isfinite(place).all()]
     shift = middle - usual["ear"] * (1.0, 0.0, 1.0)
     if known:
-        shift = np.mean([seen[name] - usual[name] for name in known], axis=0) * (1.0, 0.0, 1.0)
-    places = {name: seen[name] if name in known else usual[name] + shift for name in usual}
+        shift = np.mean([found[name] - usual[name] for name in known], axis=0) * (1.0, 0.0, 1.0)
+    places = {name: found[name] if name in known else usual[name] + shift for name in usual}
     brow = places.pop("brow")
     rise = np.array([0.0, 0.0, _FOREHEAD * (brow[2] - places["nose"][2])])
     # The eyes are half-way from chin to crown, the brows nearly.
@@ -170,8 +171,8 @@ def _between(points: Array) -> Array:
 def _aside(shape: Array, rows: dict[str, int]) -> Array:
     """The right one of a pair of places that mirror each other, from what is seen of both. Shape (3,)."""
     pair = np.stack([shape[rows["right"]], shape[rows["left"]] * MIRROR])
-    seen = pair[np.isfinite(pair).all(axis=1)]
-    return seen.mean(axis=0) if len(seen) else np.full(3, np.nan)
+    known = pair[seen(pair)]
+    return known.mean(axis=0) if len(known) else np.full(3, np.nan)
 
 
 def _length(body: Array, first: dict[str, int], second: dict[str, int]) -> float:
@@ -185,7 +186,7 @@ def _median(values: Array) -> float:
     return float(np.median(known)) if known.size else float("nan")
 
 
-_SIDES: dict[Handedness, tuple[Side, ...]] = {
+SIDES_OF: dict[Handedness, tuple[Side, ...]] = {
     "right": ("right",),
     "left": ("left",),
     "both": ("right", "left"),
@@ -260,7 +261,7 @@ def signer_motion(
         trunk=np.zeros((len(track.times), 3)) if track.trunk is None else track.trunk,
         arms={
             side: signer_arm(side, _arm_joints(track, side), _hand_keypoints(track, side), person.straight)
-            for side in _SIDES[handedness]
+            for side in SIDES_OF[handedness]
         },
     )
 
@@ -291,11 +292,11 @@ def signer_arm(side: Side, joints: Array, keypoints: Array, straight: Array) -> 
 def _hand_keypoints(track: SkeletonTrack, side: Side) -> Array:
     """A hand's keypoints, gaps filled. Shape (T, 21, 3)."""
     hand = track.hand(side).positions
-    seen = np.isfinite(hand).all(axis=2).any(axis=0)
-    if not seen.all():
+    known = seen(hand).any(axis=0)
+    if not known.all():
         raise LutError(
             "no_hand",
-            f"{track.source}: expected a {side} hand with its {HAND} keypoints, got {seen.sum()} of them in "
+            f"{track.source}: expected a {side} hand with its {HAND} keypoints, got {known.sum()} of them in "
             f"{len(hand)} frames: was it in the picture?",
         )
     return np.stack([filled(track.times, keypoint) for keypoint in hand.transpose(1, 0, 2)], axis=1)

@@ -21,6 +21,8 @@ from scipy.spatial.transform import Rotation
 from teo_common.arrays import Array
 from teo_signs.errors import LutError
 
+Flags = NDArray[np.bool_]
+
 # Keypoints of OpenPose's BODY_25, of a hand (OpenPose's and MediaPipe's order) and of OpenPose's face.
 BODY, HAND, FACE = 25, 21, 70
 
@@ -70,20 +72,14 @@ class Keypoints:
 
     def at(self, frames: slice) -> Keypoints:
         """The same part in some of the frames."""
-        return Keypoints(
-            positions=self.positions[frames],
-            sigma=self.sigma[frames],
-            confidence=self.confidence[frames],
-            status=self.status[frames],
-        )
+        return Keypoints(**{name: values[frames] for name, values in vars(self).items()})
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class SkeletonTrack:
     """A person over time, in axes that go with the trunk: x out of the chest, y to the person's left, z up.
 
-    The origin is between the shoulders. How the axes are found is said in `body_axes.in_body_axes`, which
-    makes a track of keypoints in any other axes.
+    The origin is between the shoulders. `in_body_axes` makes a track of keypoints in any other axes.
 
     Attributes:
         times: From the first frame [s], strictly increasing. Shape (T,).
@@ -170,9 +166,6 @@ def _check_times(times: Array, source: str) -> None:
         )
 
 
-# Up in an upright camera's optical frame (x right, y down, z forward).
-CAMERA_UP = (0.0, -1.0, 0.0)
-
 # [s] Deviation of the Gaussian: what sways below 1 Hz, as people do, is followed; the tremble of a detector
 # from frame to frame is not.
 _SMOOTHED_FOR = 0.15
@@ -191,7 +184,7 @@ def in_body_axes(
     face: Keypoints,
     source: str,
     recorded: str | None,
-    up: tuple[float, float, float] = CAMERA_UP,
+    up: tuple[float, float, float],
 ) -> SkeletonTrack:
     """Bring keypoints into the axes of the trunk.
 
@@ -233,8 +226,7 @@ def in_body_axes(
 def _trunk(times: Array, body: Keypoints, source: str, up: Array) -> tuple[Array, Array]:
     """Origins, shape (T, 3), and axes as columns, shape (T, 3, 3)."""
     left, right = (body.positions[:, SHOULDER[side]] for side in ("left", "right"))
-    seen = np.isfinite(left).all(axis=1) & np.isfinite(right).all(axis=1)
-    if not seen.any():
+    if not (seen(left) & seen(right)).any():
         raise LutError(
             "no_torso",
             f"{source}: expected a person whose shoulders are seen, got none in {len(times)} frames: "
@@ -243,7 +235,7 @@ def _trunk(times: Array, body: Keypoints, source: str, up: Array) -> tuple[Array
     across = smoothed(times, filled(times, left - right))
     origins = smoothed(times, filled(times, (left + right) / 2.0))
     hips = (body.positions[:, HIP["left"]] + body.positions[:, HIP["right"]]) / 2.0
-    if np.isfinite(hips).all(axis=1).mean() >= _HIPS_SEEN:
+    if seen(hips).mean() >= _HIPS_SEEN:
         rising = origins - smoothed(times, filled(times, hips))
     else:
         rising = np.tile(up, (len(times), 1))
@@ -258,6 +250,11 @@ def _trunk(times: Array, body: Keypoints, source: str, up: Array) -> tuple[Array
         )
     y = _unit(flat)
     return origins, np.stack([np.cross(y, z), y, z], axis=-1)
+
+
+def seen(positions: Array) -> Flags:
+    """Which positions are known. Shape (..., 3) gives (...)."""
+    return np.asarray(np.isfinite(positions).all(axis=-1))
 
 
 def filled(times: Array, values: Array) -> Array:
@@ -275,7 +272,7 @@ def filled(times: Array, values: Array) -> Array:
 
 
 def smoothed(times: Array, values: Array, deviation: float = _SMOOTHED_FOR) -> Array:
-    """Values smoothed over time by a Gaussian of a deviation [s]; even in time or nearly. Shape (T, k)."""
+    """Values smoothed over time by a Gaussian of a deviation [s]; even in time or nearly. Shape (T, ...)."""
     if len(times) < 2:
         return values
     frames = deviation / float(np.median(np.diff(times)))

@@ -12,17 +12,15 @@ loses its strokes and no bad one keeps its noise.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
-from numpy.typing import NDArray
 
 from teo_common.arrays import Array
-from teo_sign_capture.tracks.skeleton_track import Keypoints, SkeletonTrack
+from teo_sign_capture.tracks.skeleton_track import WRIST, Flags, Keypoints, SkeletonTrack, seen
 
-Flags = NDArray[np.bool_]
 Part = Literal["body", "left_hand", "right_hand", "face"]
-PARTS: tuple[Part, ...] = ("body", "left_hand", "right_hand", "face")
+_PARTS: tuple[Part, ...] = get_args(Part)
 
 # [m^2/s^5] With keypoints of 10 mm at 30 Hz the cut-off is 8 Hz: a stroke of 3 Hz, the fastest that hands
 # shake at, keeps 99.7 % of its way; with 30 mm it is 5.5 Hz, and it keeps 97 %.
@@ -49,8 +47,6 @@ _START_SPEED, _START_ACCELERATION = 3.0, 40.0
 # keypoint that jumps to the other hand for an image is not followed.
 _DOUBTED = 3.0
 _PASSES = 3
-# Keypoint of BODY_25 at each hand's wrist.
-_WRISTS = {"right_hand": 4, "left_hand": 7}
 # [m] Standard deviation of a hand that is put where its wrist is, in the shape it has before and after.
 _FILLED_SIGMA = 0.030
 
@@ -86,12 +82,12 @@ class Smoothed:
 def smooth_track(track: SkeletonTrack) -> Smoothed:
     """Smooth every keypoint of a track and fill what is lost for a short time."""
     filled = {
-        part: _with_wrist(track.times, getattr(track, part), track.body.positions[:, wrist])
-        for part, wrist in _WRISTS.items()
+        f"{side}_hand": _with_wrist(track.times, track.hand(side), track.body.positions[:, wrist])
+        for side, wrist in WRIST.items()
     }
     smooth: dict[str, Keypoints] = {}
     gaps: list[Gap] = []
-    for part in PARTS:
+    for part in _PARTS:
         keypoints: Keypoints = filled.get(part, getattr(track, part))
         positions = smooth_positions(track.times, keypoints.positions, keypoints.sigma)
         smooth[part] = replace(keypoints, positions=positions)
@@ -148,11 +144,6 @@ def smooth_positions(times: Array, positions: Array, sigma: Array) -> Array:
     return np.where(keep[..., None], smooth, np.nan)
 
 
-def seen(positions: Array) -> Flags:
-    """Which positions are known. Shape (..., 3) gives (...)."""
-    return np.asarray(np.isfinite(positions).all(axis=-1))
-
-
 def runs(flags: Flags) -> list[tuple[int, int]]:
     """First and last index of every run of True."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(np.int8)))
@@ -179,9 +170,9 @@ def _with_wrist(times: Array, hand: Keypoints, wrist: Array) -> Keypoints:
     """A hand whose short gaps are filled: carried by the wrist, its shape interpolated."""
     relative = hand.positions - wrist[:, None]
     known = seen(relative)
-    filled = _fillable(times, known, relative) & ~seen(hand.positions) & seen(wrist)[:, None]
+    near = _fillable(times, known, relative) | _near_known(times, known)
+    filled = near & ~seen(hand.positions) & seen(wrist)[:, None]
     positions, sigma = hand.positions.copy(), hand.sigma.copy()
-    filled |= _near_known(times, known) & ~seen(hand.positions) & seen(wrist)[:, None]
     for column in np.flatnonzero(filled.any(axis=0)):
         here, there = known[:, column], filled[:, column]
         for axis in range(3):

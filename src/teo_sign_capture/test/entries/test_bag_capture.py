@@ -3,10 +3,6 @@
 from __future__ import annotations
 
 import functools
-import signal
-import subprocess
-import sys
-import threading
 from dataclasses import replace
 from pathlib import Path
 
@@ -68,6 +64,7 @@ def test_a_gloss_that_exists_is_refused_before_anything_is_read(
 ) -> None:
     settings.table.mkdir()
     (settings.table / "SIGNO.json").write_text("{}")
+    assert not is_captured(job(tmp_path / "nowhere.mcap"), settings.table)
     with refused("exists", "--replace"):
         capture_bags(robot, job(tmp_path / "nowhere.mcap"), settings)
     assert (settings.table / "SIGNO.json").read_text() == "{}"
@@ -125,30 +122,3 @@ def test_a_picture_that_cannot_be_drawn_costs_no_entry(
     assert saved.pictures == ()
     assert "not drawn" in saved.warnings[-1]
     assert "SIGNO" in Lut.open(settings.table)
-
-
-@pytest.mark.slow
-def test_killing_it_at_any_moment_leaves_whole_entries(settings: Settings, tmp_path: Path) -> None:
-    bag = write_bag(tmp_path / "SIGNO.mcap", slow())
-    program = (
-        "from pathlib import Path; from teo_description.robot import Robot\n"
-        "from teo_sign_capture.entries.bag_capture import *\n"
-        "robot = Robot.load()\n"
-        "while True:\n"
-        "    print('begun', flush=True)\n"
-        f"    capture_bags(robot, CaptureJob(gloss='SIGNO', bags=(Path({str(bag)!r}),)),\n"
-        f"        Settings(table=Path({str(settings.table)!r}), replace=True))\n"
-    )
-    process = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE)
-    assert process.stdout is not None
-    late = threading.Timer(60.0, process.kill)
-    late.start()
-    try:
-        for _ in range(2):  # one entry is whole, and the next has begun
-            assert process.stdout.readline() == b"begun\n", "the program ended, or took a minute"
-    finally:
-        late.cancel()
-        process.send_signal(signal.SIGKILL)
-        process.communicate()
-    assert Lut.open(settings.table)["SIGNO"].duration > 0.5
-    assert [path.name for path in settings.table.iterdir() if not path.name.startswith(".")] == ["SIGNO.json"]

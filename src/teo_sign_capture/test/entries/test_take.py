@@ -12,14 +12,8 @@ from teo_description.robot import Robot
 from teo_names import joint_limits
 from teo_sign_capture.entries.take import Cut, SignTake, capture_take
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
-from teo_signs.errors import LutError
 
 FRAMES = 2.0 / 30.0
-
-
-@pytest.fixture(scope="module")
-def take(robot: Robot) -> SignTake:
-    return capture_take(robot, signing())
 
 
 def test_the_stroke_is_cut_out_and_on_the_robot(robot: Robot, take: SignTake) -> None:
@@ -32,14 +26,12 @@ def test_the_stroke_is_cut_out_and_on_the_robot(robot: Robot, take: SignTake) ->
     assert (take.motion.positions >= limits.lower - 1e-6).all()
     assert (take.motion.positions <= limits.upper + 1e-6).all()
     # The hand goes forwards and down from the chin on the robot, too.
-    palms = [
-        robot.placement(
-            robot.configuration(dict(zip(take.motion.joints, pose.tolist(), strict=True))), "right_palm"
-        )
-        for pose in take.motion.positions[[0, -1]]
+    postures = [
+        dict(zip(take.motion.joints, row, strict=True)) for row in take.motion.positions[[0, -1]].tolist()
     ]
-    assert palms[1][0, 3] > palms[0][0, 3] + 0.02
-    assert palms[1][2, 3] < palms[0][2, 3] - 0.06
+    first, last = (robot.placement(robot.configuration(one), "right_palm")[:3, 3] for one in postures)
+    assert last[0] > first[0] + 0.02
+    assert last[2] < first[2] - 0.06
 
 
 def test_times_are_of_the_recording_where_a_part_of_it_is_looked_at(robot: Robot) -> None:
@@ -91,13 +83,7 @@ def test_a_hand_that_is_lost_shortly_is_filled_in_and_said(robot: Robot) -> None
 def test_a_hand_that_is_lost_for_long_is_refused_with_when(robot: Robot) -> None:
     with refused("hand_lost", r"right hand in view .* lost from 1\.3.* to 1\.7"):
         capture_take(robot, lose(lose(signing(), "right_hand", 1.2, 1.75), "body", 1.3, 1.7))
-
-
-def test_a_hand_that_is_found_late_has_the_shape_in_which_it_is_found(robot: Robot) -> None:
-    found = capture_take(robot, lose(signing(noise=0.0), "right_hand", 0.0, 1.25))
-    truth = capture_take(robot, signing(noise=0.0))
-    assert np.abs(found.track.right_hand.positions - truth.track.right_hand.positions).max() < 0.03
-    with pytest.raises(LutError, match=r"lost from 1\.0"):
+    with refused("hand_lost", r"lost from 1\.0"):
         capture_take(robot, lose(signing(noise=0.0), "right_hand", 0.0, 1.8))
 
 
@@ -117,13 +103,6 @@ def test_a_hand_that_never_rises_into_the_signing_space_takes_no_part(robot: Rob
         capture_take(robot, beside((0.25, 0.26, -0.10), (0.30, 0.30, 0.15)))
 
 
-def test_behind_the_head_is_another_place_than_before_it(robot: Robot) -> None:
-    behind = (-0.45, -0.10, 0.30)  # where no elbow of TEO goes
-    moves = [(0.5, 1.1, behind), (1.2, 1.6, (-0.42, -0.20, 0.32)), (1.7, 2.3, REST)]
-    motion = capture_take(robot, signing(moves=moves)).motion
-    assert np.nanmean(motion.wrong_place[:, 0]) > 0.9
-
-
 def test_a_hand_too_near_to_its_shoulder_is_at_its_own_place_for_who_watches(robot: Robot) -> None:
     """TEO's elbow keeps it 46 cm off: straight before its place, not across the body nor at the face."""
     beside = (0.15, -0.30, 0.0)
@@ -131,10 +110,3 @@ def test_a_hand_too_near_to_its_shoulder_is_at_its_own_place_for_who_watches(rob
     assert np.nanmax(motion.place_error[:, 0]) > 0.15
     assert np.nanmean(motion.wrong_place[:, 0]) == 0.0
     assert np.nanmean(motion.same_zone[:, 0]) > 0.9
-
-
-def test_a_hand_that_is_hidden_keeps_its_shape_if_its_wrist_is_seen(robot: Robot) -> None:
-    whole, hidden = signing(noise=0.0), lose(signing(noise=0.0), "right_hand", 1.2, 1.75)
-    found = capture_take(robot, hidden).track.right_hand.positions
-    truth = capture_take(robot, whole).track.right_hand.positions
-    assert np.abs(found - truth).max() < 0.02

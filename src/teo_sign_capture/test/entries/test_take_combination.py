@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import fields
 
 import numpy as np
 import pytest
@@ -34,23 +35,9 @@ def motion(
     positions[:, :6] += np.random.default_rng(seed).normal(0.0, noise, (len(times), 6))
     errors = np.full((len(times), 2), error)
     errors[:, 1] = np.nan
-    frame = np.zeros(len(times))
+    figures = [field.name for field in fields(RobotMotion)[3:-1]]
     return RobotMotion(
-        times=times,
-        joints=joints,
-        positions=positions,
-        place_error=errors,
-        contact=errors,
-        same_zone=errors,
-        same_zone_of_middle=errors,
-        wrong_place=errors,
-        palm_error=errors,
-        finger_error=errors,
-        flexion_error=errors,
-        head_error=frame,
-        trunk_error=frame,
-        clearance=frame + 0.1,
-        handshapes={},
+        times=times, joints=joints, positions=positions, **dict.fromkeys(figures, errors), handshapes={}
     )
 
 

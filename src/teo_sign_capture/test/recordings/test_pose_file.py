@@ -17,10 +17,8 @@ from pose_format.numpy import NumPyPoseBody
 from pose_format.pose_header import PoseHeader, PoseHeaderComponent, PoseHeaderDimensions
 from pose_format.utils.openpose import OpenPose_Components
 from scipy.spatial.transform import Rotation
-from typer.testing import CliRunner, Result
 
 from teo_common.arrays import Array
-from teo_lut_executor.cli.lut import app
 from teo_sign_capture.recordings import pose_file
 from teo_sign_capture.recordings.pose_file import read_pose_file
 from teo_sign_capture.recordings.skeleton_bag import read_skeletons
@@ -232,13 +230,19 @@ def test_shoulders_that_a_detector_confused_are_not_a_person_from_behind(tmp_pat
     assert read_pose_file(write(tmp_path / "confused.pose", HOLISTIC, data)).body.seen.any()
 
 
-@pytest.mark.parametrize("turn", (0, 50, 130, 180, 230, 310))
-def test_who_turns_the_back_to_the_camera_is_refused(tmp_path: Path, turn: float) -> None:
-    """By the signer's skeleton turned on the spot; sideways, from 70 to 110 deg, is left to chance."""
+@pytest.fixture(scope="module")
+def signer() -> Array:
+    """Body and hands of the shipped recording's signer, facing the camera. Shape (T, 67, 3)."""
     truth = read_skeletons(SHIPPED, topic="/truth/skeletons").between(0.0, 2.0)
-    places = np.concatenate(
+    return np.concatenate(
         [part.positions for part in (truth.body, truth.left_hand, truth.right_hand)], axis=1
     )
+
+
+@pytest.mark.parametrize("turn", (0, 50, 130, 180, 230, 310))
+def test_who_turns_the_back_to_the_camera_is_refused(tmp_path: Path, signer: Array, turn: float) -> None:
+    """Turned on the spot; sideways, from 70 to 110 deg, is left to chance."""
+    places = signer
     turned = Rotation.from_euler("z", turn, degrees=True).apply(places.reshape(-1, 3)).reshape(places.shape)
     seen = np.zeros((*places.shape[:2], 4))
     seen[..., 0], seen[..., 1] = 320.0 + 300.0 * turned[..., 1], 240.0 - 300.0 * turned[..., 2]
@@ -284,15 +288,3 @@ def test_damage_is_refused_or_harmless(tmp_path: Path, changes: list[tuple[float
         assert isinstance(read_pose_file(path), PoseClip)
     except LutError as error:
         assert "expected" in str(error)
-
-
-def run(*arguments: str | Path) -> Result:
-    return CliRunner(env={"COLUMNS": "300"}).invoke(app, ["import", *(str(word) for word in arguments)])
-
-
-def test_the_command_says_why_a_file_is_no_good_and_writes_nothing(tmp_path: Path) -> None:
-    path = write(tmp_path / "body.pose", {"POSE_LANDMARKS": POSE})
-    result = run(path, "--gloss", "HOLA", "--lut", tmp_path / "lut")
-    assert result.exit_code == 1
-    assert "no_hand" in result.output
-    assert not (tmp_path / "lut").exists()

@@ -15,7 +15,7 @@ from rosbags.rosbag2 import Reader
 
 from teo_sign_capture.recordings import keypoint_search
 from teo_sign_capture.recordings.keypoint_search import find_skeletons
-from teo_sign_capture.recordings.recording import digest_of, open_recording, track_of
+from teo_sign_capture.recordings.recording import open_recording, track_of
 from teo_sign_capture.recordings.skeleton_bag import write_skeletons
 from teo_synthetic_signer.take.take_files import START
 
@@ -60,8 +60,9 @@ def test_skeletons_found_in_a_rendered_bag_were_recorded_on_no_day_either(tmp_pa
 def test_the_digest_is_of_the_messages_not_of_name_or_place(bag: Path, tmp_path: Path) -> None:
     copy = tmp_path / "other.mcap"
     shutil.copy(bag, copy)
-    assert digest_of(copy) == digest_of(bag)
-    assert digest_of(write_bag(tmp_path / "new.mcap", signing(rate=15.0, seed=1))) != digest_of(bag)
+    new = write_bag(tmp_path / "new.mcap", signing(rate=15.0, seed=1))
+    same, other = (open_recording(path).digest == open_recording(bag).digest for path in (copy, new))
+    assert same and not other
 
 
 def test_what_is_no_bag_is_refused(tmp_path: Path) -> None:
@@ -69,12 +70,6 @@ def test_what_is_no_bag_is_refused(tmp_path: Path) -> None:
     for path in (tmp_path / "text.txt", tmp_path / "nowhere", tmp_path):
         with refused("no_bag", "expected the folder of a bag"):
             open_recording(path)
-
-
-def test_a_bag_that_is_cut_off_before_its_first_message_is_refused(bag: Path) -> None:
-    bag.write_bytes(bag.read_bytes()[:3000])
-    with refused("unreadable_bag", "no message can be read"):
-        open_recording(bag)
 
 
 @pytest.mark.slow

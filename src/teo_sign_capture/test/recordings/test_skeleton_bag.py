@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-import shutil
 from dataclasses import replace
 from pathlib import Path
 
@@ -179,12 +178,3 @@ def test_scrambled_bytes_within_a_bag_are_refused_or_read_but_never_crash(store,
             read_skeletons(bag)
         except LutError as error:
             assert error.code in ("unreadable_bag", "no_skeletons", "no_person", "no_torso", "bad_stamps")
-
-
-def test_what_is_no_bag_is_refused(tmp_path):
-    (tmp_path / "notes.txt").write_text("no bag")
-    shutil.copy(tmp_path / "notes.txt", tmp_path / "notes.mcap")
-    (tmp_path / "empty").mkdir()
-    for name in ("notes.txt", "notes.mcap", "empty", "missing"):
-        with refused("unreadable_bag", name):
-            read_skeletons(tmp_path / name)

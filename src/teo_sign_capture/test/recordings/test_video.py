@@ -147,9 +147,8 @@ def test_a_pose_file_holds_what_was_found(tmp_path: Path) -> None:
 def test_a_camera_is_filmed_as_long_as_it_gives_images(tmp_path: Path) -> None:
     states: list[str] = []
     source = film(tmp_path / "camera.mp4", [index / 25.0 for index in range(20)])
-    out = film_webcam(
-        str(source), tmp_path / "films" / "A.mp4", seconds=5.0, on_state=states.append, countdown=0
-    )
+    out = tmp_path / "films" / "A.mp4"
+    film_webcam(str(source), out, seconds=5.0, on_state=states.append, countdown=0)
     assert len(list(av.open(str(out)).decode(video=0))) == 20
     assert states == ["sign now", "done"]
     with refused("no_camera"):

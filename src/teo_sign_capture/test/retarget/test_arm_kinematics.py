@@ -5,9 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from teo_description.hand_geometry import HandGeometry, HandTable
 from teo_description.robot import Robot
-from teo_names import RIGHT_HAND, joint_limits
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 
 
@@ -39,15 +37,3 @@ def test_reach_is_the_arm_stretched_out(robot):
     chain = ArmKinematics(robot)
     hanging = chain.poses(np.zeros((1, 6)))
     assert chain.reach == pytest.approx(np.linalg.norm(hanging.place[0] - chain.shoulder), abs=0.001)
-
-
-def test_the_table_of_the_hand_agrees_with_its_kinematics(robot):
-    table, hand = HandTable(robot), HandGeometry(robot)
-    limits = joint_limits(RIGHT_HAND)
-    axes = np.random.default_rng(1).uniform(limits.lower, limits.upper, (40, 6))
-    axes[0], axes[1] = limits.lower, limits.upper
-    fingers, thumbs = table.finger_points(axes[:, 2:]), table.thumb_points(axes[:, 0], axes[:, 1])
-    for row, finger, thumb in zip(axes, fingers, thumbs, strict=True):
-        points = hand.points(row)
-        assert finger == pytest.approx(points.fingers, abs=1e-4)
-        assert thumb == pytest.approx(points.thumb, abs=1e-4)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from robot_person import JOINTS, keypoints, track_of
+from robot_person import JOINTS, keypoints, track_of, turn_head
+from scipy.spatial.transform import Rotation
 
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.body_map import BodyMap, body_boxes, on_skin
@@ -45,14 +46,8 @@ def test_the_map_is_the_same_on_both_sides_and_folds_nowhere(robot):
     points = grid.reshape(-1, 3)
     assert body.place(points * MIRROR) == pytest.approx(body.place(points) * MIRROR, abs=1e-9)
     step = 1e-4
-    slopes = np.stack(
-        [
-            (body.place(points + step * axis) - body.place(points - step * axis)) / (2 * step)
-            for axis in np.eye(3)
-        ],
-        axis=2,
-    )
-    assert np.linalg.det(slopes).min() > 0.1
+    moved = [body.place(points + step * axis) - body.place(points - step * axis) for axis in np.eye(3)]
+    assert np.linalg.det(np.stack(moved, axis=2) / (2.0 * step)).min() > 0.1
 
 
 def test_far_from_the_body_lengths_grow_with_the_arms_and_stretched_arms_stay_stretched(robot):
@@ -65,22 +60,15 @@ def test_far_from_the_body_lengths_grow_with_the_arms_and_stretched_arms_stay_st
     assert aside[1] == pytest.approx(chain.shoulder[1] - chain.reach, abs=0.01)
     # Crown, shoulders and waist keep their heights, and hands that hang still hang.
     shoulders, crown = body.shoulder_height, find_place(robot.humanoid, "head_top").point[2]
-    found = body.place(
-        np.array(
-            [(0.9, 0.0, z) for z in (person.places["head_top"][2], 0.0, -0.7 * person.trunk, -person.arm)]
-        )
-    )[:, 2]
+    heights = (person.places["head_top"][2], 0.0, -0.7 * person.trunk, -person.arm)
+    found = body.place(np.array([(0.9, 0.0, height) for height in heights]))[:, 2]
     assert found == pytest.approx([crown, shoulders, 0.3 * shoulders, shoulders - chain.reach], abs=0.005)
 
 
 def test_what_is_at_the_head_goes_with_it_and_what_is_far_does_not(robot):
     body_points, left, right, face = keypoints(robot, JOINTS, np.zeros((3, len(JOINTS))))
-    neck = np.array([0.0, 0.0, 0.63])
-    # 80 deg to the left, farther than TEO's head turns, in half a second.
-    cosine, sine = np.cos(np.radians(80.0)), np.sin(np.radians(80.0))
-    turn = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
-    for points, rows in ((body_points, (0, 15, 16, 17, 18)), (face, range(70))):
-        points[2, rows] = (points[2, rows] - neck) @ turn.T + neck
+    # At last 80 deg to the left, farther than TEO's head turns, in half a second.
+    turn_head(body_points, face, Rotation.from_euler("z", [[0.0], [0.0], [80.0]], degrees=True).as_matrix())
     track = track_of(0.5 * np.arange(3), (body_points, left, right, face))
     person, body = map_of(robot, track)
     head = follow_head(robot, head_pose(track, person.head_shape), person)

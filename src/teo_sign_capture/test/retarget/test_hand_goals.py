@@ -18,11 +18,7 @@ from teo_sign_capture.recordings.recording import open_recording
 from teo_sign_capture.recordings.recording import track_of as recorded_track
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, arm_bounds
 from teo_sign_capture.retarget.body_map import BodyMap
-from teo_sign_capture.retarget.hand_goals import (
-    before_folded_arm,
-    hand_goals,
-    pair_goals,
-)
+from teo_sign_capture.retarget.hand_goals import before_folded_arm, hand_goals, pair_goals
 from teo_sign_capture.retarget.head_motion import follow_head
 from teo_sign_capture.signing_space import MIRROR, robot_hand_points
 from teo_sign_capture.tracks.head_pose import head_pose
@@ -91,12 +87,8 @@ def test_a_hand_straight_before_the_chin_is_at_the_face_and_one_before_the_chest
 
 def test_from_air_to_contact_nothing_jumps(scene):
     ways = np.linspace(0.25, 0.01, 200)
-    places = np.stack(
-        [
-            scene.goals(scene.hand - scene.hand[8] + scene.chin + np.array([way, 0.0, 0.0])).local[0]
-            for way in ways
-        ]
-    )
+    at_chin = scene.hand - scene.hand[8] + scene.chin
+    places = np.stack([scene.goals(at_chin + np.array([way, 0.0, 0.0])).local[0] for way in ways])
     assert np.linalg.norm(np.diff(places, axis=0), axis=1).max() < 0.01
 
 

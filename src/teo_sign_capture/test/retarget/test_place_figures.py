@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import pytest
 
@@ -64,21 +66,23 @@ def test_another_place_is_wrong_either_way(shown: str, made: str) -> None:
     assert wrong_place(second, first).all()
 
 
-def test_a_few_centimetres_within_a_zone_are_no_other_place() -> None:
-    first, second = BODY.find(PLACES["chest"]), BODY.find(PLACES["chest"] + 0.04)
-    assert same_zone(first, second).all()
-    assert not wrong_place(first, second).any()
+CHEST = (0.15, -0.02, -0.05)
+BORDER = -0.16  # between belly and chest
 
 
-def test_a_step_into_the_next_zone_is_not_yet_another_place() -> None:
-    first, second = BODY.find(PLACES["chest"]), BODY.find(PLACES["chest"] - (0.0, 0.0, 0.15))
-    assert not same_zone(first, second).any()
-    assert not wrong_place(first, second).any()
-
-
-def test_a_hand_that_lies_across_a_border_is_on_both_its_sides() -> None:
-    above, below = (BODY.find(np.array([[0.3, 0.0, -0.16 + way]])) for way in (0.03, -0.03))
-    farther = BODY.find(np.array([[0.3, 0.0, -0.16 - 0.06]]))
-    assert same_zone(above, below).all()
-    assert not same_zone_of_middles(above, below).any()
-    assert not same_zone(BODY.find(np.array([[0.3, 0.0, -0.16 + 0.05]])), farther).any()
+@pytest.mark.parametrize(
+    ("first", "second", "same", "same_middle"),
+    [
+        (CHEST, (0.19, 0.02, -0.01), True, True),  # some centimetres within a zone
+        (CHEST, (0.15, -0.02, -0.20), False, False),  # a step into the next zone
+        ((0.3, 0.0, BORDER + 0.03), (0.3, 0.0, BORDER - 0.03), True, False),  # hands that lie across a border
+        ((0.3, 0.0, BORDER + 0.05), (0.3, 0.0, BORDER - 0.06), False, False),
+    ],
+)
+def test_hands_near_each_other_are_in_one_zone_or_the_next_and_at_no_other_place(
+    first: Sequence[float], second: Sequence[float], same: bool, same_middle: bool
+) -> None:
+    one, other = (BODY.find(np.array([place])) for place in (first, second))
+    assert same_zone(one, other).all() == same
+    assert same_zone_of_middles(one, other).all() == same_middle
+    assert not wrong_place(one, other).any()

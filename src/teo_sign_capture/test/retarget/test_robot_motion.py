@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from refusals import refused
-from robot_person import JOINTS, keypoints, mirrored_points, part, track_of
+from robot_person import JOINTS, keypoints, mirrored_points, part, track_of, turn_head
 from scipy.spatial.transform import Rotation
 
 from teo_description.humanoid import load_humanoid
@@ -144,10 +144,9 @@ def test_a_person_in_a_mirror_gives_the_mirrored_motion(robot, points, both):
 
 @pytest.mark.parametrize(("side", "joints", "column"), [("right", RIGHT, 0), ("left", LEFT, 1)])
 def test_one_hand_leaves_the_other_out(robot, points, side, joints, column):
-    body, left, right, face = points
-    hands = {"left": np.full_like(left, np.nan), "right": right} if side == "right" else {"left": left}
-    hands = {"left": left, "right": np.full_like(right, np.nan)} | hands
-    found = retargeted(robot, track_of(TIMES, (body, hands["left"], hands["right"], face)), handedness=side)
+    seen = list(points)
+    seen[1 + column] = np.full_like(seen[1 + column], np.nan)  # left comes before right
+    found = retargeted(robot, track_of(TIMES, seen), handedness=side)
     assert found.joints == joints
     assert np.isfinite(found.place_error[:, column]).all()
     assert np.isnan(found.place_error[:, 1 - column]).all()
@@ -205,10 +204,7 @@ def test_hands_that_meet_go_through_nothing_between_frames(robot):
 
 def test_a_head_that_turns_takes_part_and_reports_what_it_cannot(robot, points):
     body, left, right, face = (one.copy() for one in points)
-    neck = np.array([0.0, 0.0, 0.63])
-    turns = Rotation.from_euler("z", 80.0 * (TIMES > 1.0)[:, None], degrees=True).as_matrix()
-    for one, rows in ((body, (0, 15, 16, 17, 18)), (face, range(70))):
-        one[:, rows] = np.einsum("tij,tkj->tki", turns, one[:, rows] - neck) + neck
+    turn_head(body, face, Rotation.from_euler("z", 80.0 * (TIMES > 1.0)[:, None], degrees=True).as_matrix())
     found = retargeted(robot, track_of(TIMES, (body, left, right, face)), handedness="right")
     assert found.joints == RIGHT + HEAD
     assert np.degrees(found.positions[-1, -2]) == pytest.approx(60.0)

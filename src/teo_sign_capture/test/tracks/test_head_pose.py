@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from robot_person import keypoints, track_of
+from robot_person import HEAD_OF_BODY, keypoints, track_of, turn_head
 from scipy.spatial.transform import Rotation
 
 from teo_names import RIGHT_ARM
@@ -14,15 +14,13 @@ from teo_sign_capture.tracks.signer_motion import measure_person
 
 FRAMES = 31
 TIMES = np.arange(FRAMES) / 30.0
-NECK = np.array([0.0, 0.0, 0.63])
 
 
 def nodding(robot, yaw, pitch, hide=()):
     """A person of TEO's size whose head turns and nods about the neck [rad], arms hanging."""
     body, left, right, face = keypoints(robot, RIGHT_ARM, np.radians(np.tile([-5.0] * 6, (FRAMES, 1))))
     turns = Rotation.from_euler("ZY", np.stack([yaw, pitch], axis=1)).as_matrix()
-    for points, rows in ((body, (0, 15, 16, 17, 18)), (face, range(70))):
-        points[:, rows] = np.einsum("tij,tkj->tki", turns, points[:, rows] - NECK) + NECK
+    turn_head(body, face, turns)
     body[:, list(hide)] = np.nan
     return track_of(TIMES, (body, left, right, face)), turns
 
@@ -71,7 +69,7 @@ def test_eyes_stand_in_for_ears_that_are_hidden(robot):
 
 def test_a_head_that_is_never_seen_is_held_straight(robot):
     body, left, right, face = keypoints(robot, RIGHT_ARM, np.zeros((FRAMES, 6)))
-    body[:, (0, 15, 16, 17, 18)] = np.nan
+    body[:, HEAD_OF_BODY] = np.nan
     track = track_of(TIMES, (body, left, right, np.full_like(face, np.nan)))
     pose = head_pose(track, head_shape(track))
     assert pose.turns == pytest.approx(np.broadcast_to(np.eye(3), (FRAMES, 3, 3)))
@@ -82,22 +80,18 @@ def test_a_head_that_is_never_seen_is_held_straight(robot):
     assert not follow_head(robot, pose, person).moves
 
 
-# Nose, eyes, ears of the body; all of the face.
-HEAD_ROWS = [0, 15, 16, 17, 18, *range(25, 95)]
-
-
 def whole_face(robot, yaw, rng):
-    """A person whose whole face is seen, with a centimetre of noise, and the head's true turns."""
+    """A person whose whole face is seen, with a centimetre of noise."""
     body, left, right, face = keypoints(robot, RIGHT_ARM, np.zeros((FRAMES, 6)))
     # Over the front of an ellipsoid of a head's size before the neck, and outwards of it a nose.
     along, around = rng.uniform(-1.2, 1.2, 70), rng.uniform(-0.9, 0.9, 70)
     front = np.stack([np.cos(along) * np.cos(around), np.sin(along), np.sin(around)], axis=1)
     face[:] = np.array([0.0, 0.0, 0.70]) + front * (0.10, 0.08, 0.11)
-    turns = Rotation.from_euler("z", yaw[:, None]).as_matrix()
-    points = np.concatenate([body, face], axis=1)
-    points[:, HEAD_ROWS] = np.einsum("tij,tkj->tki", turns, points[:, HEAD_ROWS] - NECK) + NECK
-    points[:, HEAD_ROWS] += rng.normal(0.0, 0.006, (FRAMES, len(HEAD_ROWS), 3))
-    return (points[:, :25], left, right, points[:, 25:]), turns
+    turn_head(body, face, Rotation.from_euler("z", yaw[:, None]).as_matrix())
+    noise = rng.normal(0.0, 0.006, (FRAMES, len(HEAD_OF_BODY) + 70, 3))
+    body[:, HEAD_OF_BODY] += noise[:, : len(HEAD_OF_BODY)]
+    face += noise[:, len(HEAD_OF_BODY) :]
+    return body, left, right, face
 
 
 def yaws_of(track):
@@ -107,7 +101,7 @@ def yaws_of(track):
 def test_an_arm_before_the_face_turns_no_head(robot):
     rng = np.random.default_rng(3)
     yaw = np.radians(8.0) * np.sin(2.0 * np.pi * TIMES)
-    points, _ = whole_face(robot, yaw, rng)
+    points = whole_face(robot, yaw, rng)
     # The arm's depth for the left third of the head, as a depth camera has it: 30 to 60 cm before the face.
     hidden = points[3][:, :, 1] > 0.03
     points[3][10:20][hidden[10:20]] += np.array([0.45, 0.0, 0.0]) + rng.normal(0.0, 0.05, 3)
@@ -117,12 +111,10 @@ def test_an_arm_before_the_face_turns_no_head(robot):
 def test_a_head_that_is_turned_as_no_neck_turns_is_filled_in(robot):
     rng = np.random.default_rng(4)
     yaw = np.radians(10.0) * np.sin(2.0 * np.pi * TIMES)
-    points, _ = whole_face(robot, yaw, rng)
-    wrong = np.radians([178.0, 169.0, 58.0, -58.0])
-    for frame, turn in zip((6, 12, 18, 19), wrong, strict=True):
-        about = Rotation.from_euler("z", turn).as_matrix()
-        for part, rows in ((points[0], [0, 15, 16, 17, 18]), (points[3], range(70))):
-            part[frame, rows] = (part[frame, rows] - NECK) @ about.T + NECK
+    points = whole_face(robot, yaw, rng)
+    wrong = np.zeros((FRAMES, 1))
+    wrong[[6, 12, 18, 19], 0] = [178.0, 169.0, 58.0, -58.0]
+    turn_head(points[0], points[3], Rotation.from_euler("z", wrong, degrees=True).as_matrix())
     found = yaws_of(track_of(TIMES, points))
     assert found == pytest.approx(yaw, abs=np.radians(5.0))
     assert np.abs(np.diff(found)).max() * 30.0 <= np.radians(780.0)
@@ -131,7 +123,7 @@ def test_a_head_that_is_turned_as_no_neck_turns_is_filled_in(robot):
 def test_keypoints_count_by_their_sigma(robot):
     rng = np.random.default_rng(5)
     yaw = np.radians(15.0) * np.sin(2.0 * np.pi * TIMES)
-    points, _ = whole_face(robot, yaw, rng)
+    points = whole_face(robot, yaw, rng)
     poor = points[3][:, :, 1] > 0.0
     poor[:10] = poor[20:] = False
     points[3][poor] += (0.012, 0.0, 0.0)
@@ -143,7 +135,7 @@ def test_keypoints_count_by_their_sigma(robot):
 
 def test_a_face_that_is_mostly_held_is_not_followed(robot):
     yaw = np.radians(30.0) * np.sin(2.0 * np.pi * TIMES)
-    points, _ = whole_face(robot, yaw, np.random.default_rng(6))
+    points = whole_face(robot, yaw, np.random.default_rng(6))
     track = track_of(TIMES, points)
     shape, person = head_shape(track), measure_person(track)
     track.face.status[:20, :60] = 2

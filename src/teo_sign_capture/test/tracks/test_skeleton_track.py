@@ -108,26 +108,17 @@ def test_a_person_whose_shoulders_are_not_seen_is_refused(right, left):
         track_of(body, hand)
 
 
-def track(times, **changes):
-    count = len(times)
-    parts = {
-        "body": Keypoints.lost(count, 25),
-        "left_hand": Keypoints.lost(count, 21),
-        "right_hand": Keypoints.lost(count, 21),
-        "face": Keypoints.lost(count, 70),
-    }
-    fields = {"times": np.asarray(times, float), "source": "clip", "recorded": None} | parts | changes
-    return SkeletonTrack(**fields)
-
-
-def numbered(count, size):
-    lost = Keypoints.lost(count, size)
-    lost.positions[:] = np.arange(count)[:, None, None]
-    return lost
+def track(times, trunk=None):
+    """A person of whom nothing is seen."""
+    sizes = {"body": 25, "left_hand": 21, "right_hand": 21, "face": 70}
+    parts = {name: Keypoints.lost(len(times), size) for name, size in sizes.items()}
+    times = np.asarray(times, float)
+    return SkeletonTrack(times=times, source="clip", recorded=None, trunk=trunk, **parts)
 
 
 def test_a_part_of_a_track_holds_both_ends_and_begins_at_zero():
-    whole = track(np.arange(10) * 0.1, right_hand=numbered(10, 21), trunk=np.arange(30.0).reshape(10, 3))
+    whole = track(np.arange(10) * 0.1, trunk=np.arange(30.0).reshape(10, 3))
+    whole.right_hand.positions[:] = np.arange(10)[:, None, None]
     part = whole.between(0.3 - 1e-9, 0.6 + 1e-9)
     assert part.times == pytest.approx([0.0, 0.1, 0.2, 0.3])
     assert part.right_hand.positions[:, 0, 0] == pytest.approx([3, 4, 5, 6])

@@ -71,13 +71,21 @@ def test_a_short_gap_is_filled_and_said_a_long_one_is_left() -> None:
     assert gaps[1].end - gaps[1].start > LONGEST_FILLED
 
 
-def test_a_hand_that_is_lost_shortly_goes_with_its_wrist() -> None:
-    times = np.arange(0.0, 2.0, 1.0 / 30.0)
-    truth = path(times, MIDDLE, [(0.7, 1.0, MIDDLE + np.array([0.0, 0.3, 0.0]))])
-    whole = make_track(times, truth)
-    # The hand is lost for the whole of the movement: only its wrist knows when it moved.
-    smooth = smooth_track(lose(whole, "right_hand", 0.68, 1.02)).track.right_hand.positions
-    assert np.abs(smooth - whole.right_hand.positions).max() < 0.03
+@pytest.mark.parametrize(
+    ("start", "end", "within"),
+    [
+        (0.68, 1.02, 0.03),  # for the whole of a movement: only its wrist knows when it moved
+        (0.3, 1.4, 0.02),  # hidden for longer, its shape the same before and after
+        (0.0, 0.25, 0.03),  # found late
+    ],
+)
+def test_a_hand_that_is_lost_goes_with_its_wrist_in_the_shape_it_has_before_or_after(
+    start: float, end: float, within: float
+) -> None:
+    times = np.arange(0.0, 2.5, 1.0 / 30.0)
+    whole = make_track(times, path(times, MIDDLE, [(0.7, 1.0, MIDDLE + np.array([0.0, 0.3, 0.0]))]))
+    smooth = smooth_track(lose(whole, "right_hand", start, end)).track.right_hand.positions
+    assert np.abs(smooth - whole.right_hand.positions).max() < within
 
 
 def test_a_single_image_is_left_as_it_is() -> None:
