@@ -16,9 +16,8 @@ from teo_ros2cli.bags.rewriting import reindex
 # Records until the disk is full, which a limit on the size of files stands for.
 FULL_DISK = """
 import pathlib, resource, sys
-from teo_ros2cli.bags.writer import Arrival, BackgroundWriter
+from teo_ros2cli.bags.writer import BackgroundWriter, BagWriter
 from teo_ros2cli.bags.metadata import TopicRecord
-from teo_ros2cli.bags.writer import BagWriter
 from teo_ros2cli.interfaces import schema_of
 from teo_ros2cli.errors import Ros2CliError
 
@@ -26,7 +25,7 @@ resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))
 bag = BackgroundWriter(BagWriter(pathlib.Path(sys.argv[1]), preset="fastwrite"), 0)
 bag.add_topic(TopicRecord("/t", "std_msgs/msg/String"), schema_of("std_msgs/msg/String"))
 for i in range(500):
-    bag.write(Arrival("/t", 10**18 + i, 10**18 + i, b"\\0\\1\\0\\0" + bytes(1_000)))
+    bag.write("/t", 10**18 + i, 10**18 + i, b"\\0\\1\\0\\0" + bytes(1_000))
 try:
     bag.close()
 except Ros2CliError as error:

@@ -159,11 +159,7 @@ def test_a_bag_is_split_by_size(tmp_path: Path) -> None:
     assert sum(record.messages for record in files) == 300
 
 
-def test_an_existing_directory_is_refused(tmp_path: Path) -> None:
-    (tmp_path / "bag").mkdir()
-    with pytest.raises(Ros2CliError, match="already exists") as caught:
-        BagWriter(tmp_path / "bag")
-    assert caught.value.code == "output_exists"
+def test_a_directory_that_cannot_be_made_is_told(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     with pytest.raises(Ros2CliError) as caught:
         BagWriter(tmp_path / "file" / "bag")
@@ -187,15 +183,15 @@ def test_a_bag_without_messages_is_good(tmp_path: Path, topics: int) -> None:
 def test_messages_are_played_in_order_though_stored_a_little_beside(tmp_path: Path) -> None:
     writer = BagWriter(tmp_path / "bag")
     writer.add_topic(topic("/text", TEXT), schema_of(TEXT))
-    times = [START + i * 1000 for i in range(3000)]
+    times = [START + i * 1000 for i in range(1500)]
     shaken = sorted(times, key=lambda time: time + random.Random(time).randint(0, 100_000))
     for time in shaken:
         writer.write("/text", time, time, text("x"))
     writer.close()
     assert shaken != times
     assert [message.log_time for message in open_bag(tmp_path / "bag").messages()] == times
-    late = open_bag(tmp_path / "bag").messages(start=times[2500])
-    assert [message.log_time for message in late] == times[2500:]
+    late = open_bag(tmp_path / "bag").messages(start=times[1200])
+    assert [message.log_time for message in late] == times[1200:]
     assert list(open_bag(tmp_path / "bag").messages(topics=["/other"])) == []
 
 
@@ -265,8 +261,7 @@ def read_by_others(directory: Path) -> list[tuple[str, int, bytes]]:
     return read
 
 
-@pytest.mark.parametrize("preset", PRESETS)
-@pytest.mark.parametrize("share", [0.3, 0.6])
+@pytest.mark.parametrize(("preset", "share"), [("zstd_fast", 0.3), *((preset, 0.6) for preset in PRESETS)])
 def test_a_repaired_bag_is_read_by_everybody(tmp_path: Path, preset: str, share: float) -> None:
     written = write_bag(tmp_path / "bag", preset=preset, max_duration=2_000_000_000, custom_data={"a": "b"})
     last = tmp_path / "bag" / "bag_1.mcap"

@@ -153,16 +153,14 @@ def run_echo(options: argparse.Namespace) -> int:
     Raises:
         Ros2CliError: `service_unknown`, `invalid_type`.
     """
-    from teo_ros2cli.graph.cli_node import cli_node
-    from teo_ros2cli.graph.discovery import look_again, settle
+    from teo_ros2cli.graph.discovery import look_again
     from teo_ros2cli.graph.subscribing import AdaptiveSubscription, listen
     from teo_ros2cli.interfaces import interface_class
-    from teo_ros2cli.qos import from_options, to_record
+    from teo_ros2cli.qos import asked_record
 
     service = full_name(options.service_name)
     events = f"{service}/_service_event"
-    with cli_node(use_sim_time=options.use_sim_time) as node:
-        settle(node, options.spin_time)
+    with known_graph(options) as node:
         types = [options.service_type] if options.service_type else look_again(lambda: _types(node, service))
         if not types:
             raise Ros2CliError("service_unknown", f"Unknown service '{options.service_name}'")
@@ -173,10 +171,10 @@ def run_echo(options: argparse.Namespace) -> int:
             events,
             interface_class(types[0], "srv").Event,
             _EventPrinter(options),
-            fixed=to_record(from_options(options)) if options.qos_given else None,
+            fixed=asked_record(options),
             warn=lambda sentence: print(sentence, file=sys.stderr),
         )
-        listen(node, [subscription], until=lambda: False, deadline=None)
+        listen(node, [subscription])
     return 0
 
 

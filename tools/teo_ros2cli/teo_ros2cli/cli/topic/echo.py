@@ -93,7 +93,7 @@ def run(options: argparse.Namespace) -> int:
     from teo_ros2cli.graph.discovery import full_topic_name, look_again, only_type, settle
     from teo_ros2cli.graph.subscribing import AdaptiveSubscription, listen
     from teo_ros2cli.interfaces import message_class
-    from teo_ros2cli.qos import from_options, to_record
+    from teo_ros2cli.qos import asked_record
 
     given = message_class(options.message_type) if options.message_type else None
     show = Printer(options)
@@ -112,7 +112,7 @@ def run(options: argparse.Namespace) -> int:
             topic,
             given,
             show,
-            fixed=to_record(from_options(options)) if options.qos_given else None,
+            fixed=asked_record(options),
             raw=options.raw,
             warn=lambda sentence: print(sentence, file=sys.stderr),
             lost=None if options.no_lost_messages else show.tell_lost,

@@ -149,7 +149,9 @@ def _publish(
     times: int,
     options: argparse.Namespace,
 ) -> None:
-    from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+    from rclpy.executors import ExternalShutdownException
+
+    from teo_ros2cli.graph.cli_node import executor_of
 
     count = 0
 
@@ -166,16 +168,12 @@ def _publish(
     if times == 1:
         return
     timer = node.create_timer(1.0 / options.rate, publish)
-    executor = SingleThreadedExecutor(context=node.context)
-    executor.add_node(node)
-    try:
+    with executor_of(node) as executor:
         while times == 0 or count < times:
             executor.spin_once()
             if not node.context.ok():
                 raise ExternalShutdownException  # SIGTERM
-    finally:
-        executor.remove_node(node)
-        node.destroy_timer(timer)
+    node.destroy_timer(timer)
 
 
 def _linger(publisher: Any, profile: Any, keep_alive: float) -> None:
