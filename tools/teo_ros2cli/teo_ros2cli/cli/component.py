@@ -10,6 +10,8 @@ from typing import Any
 
 from teo_ros2cli.cli.options import add_graph_arguments, assignment, full_name, known_graph, positive_int
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.graph.cli_node import call
+from teo_ros2cli.interfaces import interface_class
 from teo_ros2cli.packages import resources
 
 _LISTING = "/_container/list_nodes"
@@ -157,9 +159,6 @@ def _parameters(assignments: list[tuple[str, str]]) -> Iterator[Any]:
 
 def _call(node: Any, container: str, service: str, *, timeout: float = _TIMEOUT, **request: Any) -> Any:
     """Call a container's `list_nodes`, of composition_interfaces/srv/ListNodes, and the like."""
-    from teo_ros2cli.graph.cli_node import call
-    from teo_ros2cli.interfaces import interface_class
-
     kind = service.title().replace("_", "")
     try:
         cls = interface_class(f"composition_interfaces/srv/{kind}", "srv")

@@ -17,6 +17,7 @@ from teo_ros2cli.cli.options import (
     print_nodes,
 )
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.graph.cli_node import call
 from teo_ros2cli.graph.discovery import node_names
 
 # Time that a node gets to answer [s], as for parameters.
@@ -154,7 +155,5 @@ def _transitions(node: Any, name: str, service: str) -> list[Any]:
 def _call(node: Any, name: str, kind: str, service: str, *, timeout: float = _TIMEOUT, **request: Any) -> Any:
     """Call a managed node's service, such as `get_state`, of a type of lifecycle_msgs/srv."""
     from lifecycle_msgs import srv
-
-    from teo_ros2cli.graph.cli_node import call
 
     return call(node, getattr(srv, kind), f"{name}/{service}", timeout=timeout, **request)

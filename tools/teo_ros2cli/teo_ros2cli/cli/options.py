@@ -13,6 +13,8 @@ from contextlib import contextmanager
 from typing import Any
 
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.graph.cli_node import cli_node
+from teo_ros2cli.graph.discovery import look_again, settle
 from teo_ros2cli.qos import POLICIES
 
 # As rclpy.qos names them; not taken from there, because loading rclpy takes longer than most commands.
@@ -180,9 +182,6 @@ def known_graph(options: argparse.Namespace, *, names: bool = False, rosout: boo
         names: Wait for the names of the nodes as well.
         rosout: Let the node publish its log.
     """
-    from teo_ros2cli.graph.cli_node import cli_node
-    from teo_ros2cli.graph.discovery import settle
-
     with cli_node(use_sim_time=options.use_sim_time, rosout=rosout) as node:
         settle(node, options.spin_time, names=names)
         yield node
@@ -253,8 +252,6 @@ def print_names(options: argparse.Namespace, found: NamesAndTypes) -> int:
 
 def print_types(look: Callable[[], NamesAndTypes], name: str) -> int:
     """Print the types of a name, a line each; return the exit status: 1 if there is no such name."""
-    from teo_ros2cli.graph.discovery import look_again
-
     types = look_again(lambda: dict(look()).get(full_name(name), ()))
     for kind in types:
         print(kind)

@@ -14,8 +14,10 @@ from typing import Any
 from teo_ros2cli.bags.selection import is_hidden
 from teo_ros2cli.cli.options import add_graph_arguments, full_name, known_graph, pattern, positive_float
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.graph.cli_node import call
 from teo_ros2cli.graph.discovery import look_again, node_names
 from teo_ros2cli.messages.parameters import TYPES, WILDCARD, descriptor_text, plain_value, read_parameter_file
+from teo_ros2cli.messages.tree import dump
 
 # Time that a node gets to answer unless another is given [s].
 _TIMEOUT = 5.0
@@ -212,8 +214,6 @@ add_dump_arguments = _add_node_arguments
 
 def run_dump(options: argparse.Namespace) -> int:
     """Print a node's parameters as a parameter file."""
-    from teo_ros2cli.messages.tree import dump
-
     node = full_name(options.node_name)
     with _parameters(options) as parameters:
         names = parameters.names(node)
@@ -280,8 +280,6 @@ class _Parameters:
     def _call(self, node: str, service: str, answer_timeout: float | None = None, **request: Any) -> Any:
         """Call `<node>/list_parameters`, of rcl_interfaces/srv/ListParameters, and the like."""
         from rcl_interfaces import srv
-
-        from teo_ros2cli.graph.cli_node import call
 
         if not look_again(lambda: node in node_names(self._node)):
             raise Ros2CliError("node_unknown", "Node not found")

@@ -74,7 +74,7 @@ class AdaptiveSubscription:
         # Without publishers there is nothing to fit yet; a latched subscription may bring a message again.
         self._blind = not self.offers
         self._repetitions = _Repetitions() if self._blind else None
-        self.request = fixed or self._fitting(self.offers)
+        self.request = fixed or request_for(topic, self.offers, warn)
         self._subscription = self._subscribe()
         # Replaced ones, each with the moment of the steady clock at which it ends [s].
         self._retiring: list[tuple[Any, float]] = []
@@ -100,7 +100,7 @@ class AdaptiveSubscription:
         latched = self._blind and all(offer.durability == "transient_local" for offer in offers)
         self._blind = False
         if unserved or latched:
-            self._replace(self._fitting(offers))
+            self._replace(request_for(self._topic, offers, self._warn))
 
     def close(self) -> None:
         """Pass on what still waits in the middleware, and end the subscription."""
@@ -110,9 +110,6 @@ class AdaptiveSubscription:
     def _offers(self) -> tuple[QosRecord, ...]:
         publishers = self._node.get_publishers_info_by_topic(self._topic)
         return tuple(to_record(info.qos_profile) for info in publishers)
-
-    def _fitting(self, offers: tuple[QosRecord, ...]) -> QosRecord:
-        return request_for(self._topic, offers, self._warn)
 
     def _replace(self, request: QosRecord) -> None:
         # For a while both subscriptions receive: what comes twice is known from here on.

@@ -16,6 +16,9 @@ from teo_ros2cli.bags.writer import BagWriter
 from teo_ros2cli.cli.bag.console import SPACE, bag_errors, keys, stop_signals, warn
 from teo_ros2cli.cli.options import full_name, key_value, non_negative_int, pattern, positive_int
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.graph.cli_node import cli_node, executor_of
+from teo_ros2cli.graph.discovery import settle
+from teo_ros2cli.graph.recorder import Recorder, RecorderSettings
 from teo_ros2cli.qos import read_overrides
 
 # Longest time in which a signal or a key is not looked at [s].
@@ -190,10 +193,6 @@ def run(options: argparse.Namespace) -> int:
         raise Ros2CliError("output_exists", f"Output folder '{directory}' already exists.")
 
     from rclpy.logging import LoggingSeverity
-
-    from teo_ros2cli.graph.cli_node import cli_node, executor_of
-    from teo_ros2cli.graph.discovery import settle
-    from teo_ros2cli.graph.recorder import Recorder, RecorderSettings
 
     settings = RecorderSettings(
         selection=selection,

@@ -17,6 +17,7 @@ from teo_ros2cli.cli.options import (
     print_types,
 )
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.graph.discovery import full_topic_name, look_again, topic_types
 from teo_ros2cli.interfaces import InterfaceName
 
 _COUNTED = "topics discovered"
@@ -102,8 +103,6 @@ def run_info(options: argparse.Namespace) -> int:
     Raises:
         Ros2CliError: `topic_unknown` or `invalid_topic`.
     """
-    from teo_ros2cli.graph.discovery import full_topic_name, look_again, topic_types
-
     with known_graph(options, names=True, rosout=False) as node:
         topic = full_topic_name(node, options.topic_name)
         types = look_again(lambda: topic_types(node, topic))

@@ -16,6 +16,9 @@ from typing import Any, NamedTuple
 from teo_ros2cli.cli.options import add_graph_arguments, known_graph, positive_int
 from teo_ros2cli.cli.topic.echo import message_filter
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.graph.discovery import full_topic_name, wait_for_type
+from teo_ros2cli.graph.subscribing import ANYTHING, AdaptiveSubscription, listen
+from teo_ros2cli.interfaces import message_class
 
 # Interval of printing [s].
 _REPORT = 1.0
@@ -44,9 +47,6 @@ def _measured_topics(
     Raises:
         Ros2CliError: `invalid_topic`, `invalid_type`, `ambiguous_type`.
     """
-    from teo_ros2cli.graph.discovery import full_topic_name, wait_for_type
-    from teo_ros2cli.interfaces import message_class
-
     with known_graph(options) as node:
         names = [full_topic_name(node, topic) for topic in topics]
         yield node, {name: message_class(wait_for_type(node, name, "measure")) for name in names}
@@ -69,8 +69,6 @@ def _measure(
         report: Prints what was measured.
         raw: Pass messages on as they came from the wire.
     """
-    from teo_ros2cli.graph.subscribing import ANYTHING, AdaptiveSubscription, listen
-
     subscriptions = [
         AdaptiveSubscription(
             node, topic, cls, functools.partial(receive, topic), fixed=ANYTHING, raw=raw, warn=print

@@ -19,8 +19,11 @@ from teo_ros2cli.cli.options import (
     positive_float,
 )
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.graph.cli_node import cli_node, executor_of
+from teo_ros2cli.graph.discovery import full_topic_name, settle
 from teo_ros2cli.interfaces import message_class
 from teo_ros2cli.messages.fill import StampSetter, fill_from_text
+from teo_ros2cli.qos import from_options
 
 # Longest time that reliable subscriptions get to receive the last message [s]. A subscription that has been
 # found may itself find this publisher later, with the next announcement, every 3 s with the defaults of Fast
@@ -104,10 +107,6 @@ def run(options: argparse.Namespace) -> int:
     message = message_class(options.message_type)()
     stamps = fill_from_text(message, given_values(options, "values"), automatic_stamps=True)
 
-    from teo_ros2cli.graph.cli_node import cli_node
-    from teo_ros2cli.graph.discovery import full_topic_name, settle
-    from teo_ros2cli.qos import from_options
-
     with cli_node(options.node_name, use_sim_time=options.use_sim_time) as node:
         topic = full_topic_name(node, options.topic_name)
         profile = from_options(options)
@@ -150,8 +149,6 @@ def _publish(
     options: argparse.Namespace,
 ) -> None:
     from rclpy.executors import ExternalShutdownException
-
-    from teo_ros2cli.graph.cli_node import executor_of
 
     count = 0
 
