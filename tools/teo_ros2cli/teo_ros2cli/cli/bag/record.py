@@ -8,7 +8,9 @@ import argparse
 import datetime
 import os
 import time
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from teo_ros2cli.bags.mcap_file import DEFAULT_PRESET, PRESETS
 from teo_ros2cli.bags.selection import TopicSelection
@@ -227,17 +229,23 @@ def run(options: argparse.Namespace) -> int:
             if not settings.discovery:
                 settle(node)
             log.info("Recording..." if not settings.start_paused else "Waiting for recording: paused.")
-            with executor_of(node) as executor:
-                while not stopped():
-                    recorder.look(time.monotonic())
-                    if pressed is not None and pressed() == SPACE:
-                        recorder.toggle_paused()
-                    executor.spin_once(timeout_sec=_STEP)
+            _spin(node, recorder, stopped, pressed)
             log.info("Writing remaining messages from cache to the bag. It may take a while")
         finally:
             recorder.finish()
             log.info("Recording stopped")
     return 0
+
+
+def _spin(
+    node: Any, recorder: Recorder, stopped: Callable[[], bool], pressed: Callable[[], str] | None
+) -> None:
+    with executor_of(node) as executor:
+        while not stopped():
+            recorder.look(time.monotonic())
+            if pressed is not None and pressed() == SPACE:
+                recorder.toggle_paused()
+            executor.spin_once(timeout_sec=_STEP)
 
 
 def _selection(options: argparse.Namespace) -> TopicSelection:
