@@ -11,7 +11,6 @@ import os
 import signal
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -87,18 +86,15 @@ def data_home(monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.fixture
 def domain_id() -> Iterator[int]:
     """A DDS domain that no other test here uses, confined to localhost; also in the environment."""
-    with own_domain() as domain:
-        yield domain
+    yield from own_domain()
 
 
 @pytest.fixture(scope="module")
 def module_domain_id() -> Iterator[int]:
     """The same for all tests of a module, which share the nodes that they watch."""
-    with own_domain() as domain:
-        yield domain
+    yield from own_domain()
 
 
-@contextmanager
 def own_domain() -> Iterator[int]:
     """Take a DDS domain, and name it in the environment."""
     folder = Path(tempfile.gettempdir()) / "teo_test_domains"

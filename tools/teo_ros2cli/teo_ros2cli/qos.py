@@ -80,13 +80,8 @@ class QosRecord:
         unknown = set(tree) - set(cls.__dataclass_fields__)
         if unknown:
             raise ValueError(f"unknown QoS policy {', '.join(sorted(map(str, unknown)))}")
-        values: dict[str, Any] = {}
-        for name, known in POLICIES.items():
-            if name in tree:
-                values[name] = _policy(name, tree[name], known)
-        for name in DURATIONS:
-            if name in tree:
-                values[name] = _nanoseconds(name, tree[name])
+        values: dict[str, Any] = {name: _policy(name, tree[name]) for name in POLICIES if name in tree}
+        values |= {name: _nanoseconds(name, tree[name]) for name in DURATIONS if name in tree}
         if "depth" in tree:
             depth = tree["depth"]
             if not isinstance(depth, int) or isinstance(depth, bool) or depth < 0:
@@ -97,7 +92,8 @@ class QosRecord:
         return cls(**values)
 
 
-def _policy(name: str, value: Any, known: Sequence[str]) -> str:
+def _policy(name: str, value: Any) -> str:
+    known = POLICIES[name]
     if isinstance(value, str) and value.lower() in known:
         return value.lower()
     if isinstance(value, int | float) and not isinstance(value, bool) and value in range(len(known)):
