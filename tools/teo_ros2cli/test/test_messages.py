@@ -196,13 +196,21 @@ def test_a_part_of_a_message_is_selected() -> None:
 
 
 @pytest.mark.parametrize(
-    "name",
+    ("names", "told"),
     [
-        *("std_msgs/msg/Strin", "no_such_msgs/msg/String", "std_msgs/srv/String", "os/msg/path"),
-        *("", "String", "a/b/c/d", "std_msgs/msg/", "std msgs/msg/String", "x/nothing/Y", "../a/B"),
+        (
+            ("std_msgs/msg/Strin", "no_such_msgs/msg/String", "std_msgs/srv/String", "os/msg/path"),
+            "is invalid",
+        ),
+        (
+            ("", "String", "a/b/c/d", "std_msgs/msg/", "std msgs/msg/String", "x/nothing/Y", "../a/B"),
+            "type is invalid: expected a name such as",
+        ),
     ],
+    ids=["unknown", "of a wrong form"],
 )
-def test_names_of_unknown_types_and_of_a_wrong_form_are_refused(name: str) -> None:
-    with pytest.raises(Ros2CliError) as caught:
-        message_class(name)
-    assert caught.value.code == "invalid_type"
+def test_names_of_unknown_types_and_of_a_wrong_form_are_refused(names: tuple[str, ...], told: str) -> None:
+    for name in names:
+        with pytest.raises(Ros2CliError, match=told) as caught:
+            message_class(name)
+        assert caught.value.code == "invalid_type", name
