@@ -11,7 +11,6 @@ import os
 import signal
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -32,13 +31,14 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 os.environ["ROS_PYTHON_CHECK_FIELDS"] = "1"
 
 # Nobody's own signs are read or written: each test finds its own table at a place that is not there yet.
+_tests = itertools.count()
 _data_homes = tempfile.TemporaryDirectory(prefix="teo_test_data_")
 os.environ["XDG_DATA_HOME"] = _data_homes.name
 
 # Domain IDs up to 101 keep DDS ports below Linux's ephemeral range (ROS 2 documentation, "The
 # ROS_DOMAIN_ID"). 0 to 19 are left to people.
 _DOMAINS = range(20, 102)
-
+_calls = itertools.count(1)
 
 _STUDIO = Path(__file__).parent / "studio"
 _CONSOLE = Path(__file__).parent / "src" / "teo_console" / "test"
@@ -86,24 +86,21 @@ def data_home(monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.fixture
 def domain_id() -> Iterator[int]:
     """A DDS domain that no other test here uses, confined to localhost; also in the environment."""
-    with own_domain() as domain:
-        yield domain
+    yield from own_domain()
 
 
 @pytest.fixture(scope="module")
 def module_domain_id() -> Iterator[int]:
     """The same for all tests of a module, which share the nodes that they watch."""
-    with own_domain() as domain:
-        yield domain
+    yield from own_domain()
 
 
-@contextmanager
 def own_domain() -> Iterator[int]:
     """Take a DDS domain, and name it in the environment."""
     folder = Path(tempfile.gettempdir()) / "teo_test_domains"
     folder.mkdir(exist_ok=True)
     # Start at a place of this process's own, so that a domain is not reused at once by the next test.
-    start = (os.getpid() * 7 + domain_id_counter()) % len(_DOMAINS)
+    start = (os.getpid() * 7 + next(_calls)) % len(_DOMAINS)
     for offset in range(len(_DOMAINS)):
         domain = _DOMAINS[(start + offset) % len(_DOMAINS)]
         with (folder / str(domain)).open("w") as lock:
@@ -129,14 +126,3 @@ def _inhabited(domain: int) -> bool:
     rows = Path("/proc/net/udp").read_text(encoding="ascii").splitlines()[1:]
     ports = (int(row.split()[1].rpartition(":")[2], 16) for row in rows)
     return any(first <= port < first + 250 for port in ports)
-
-
-_tests = itertools.count()
-_counter = 0
-
-
-def domain_id_counter() -> int:
-    """Count the calls of this process."""
-    global _counter
-    _counter += 1
-    return _counter

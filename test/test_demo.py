@@ -85,7 +85,6 @@ def test_two_independent_readers_open_its_bag(run: tuple[subprocess.CompletedPro
     assert by_mcap["/joint_states"] > 1000  # 100 a second
 
 
-@pytest.mark.slow
 def test_it_fails_clearly_when_nothing_can_be_signed(tmp_path: Path) -> None:
     result = demo("Привет", tmp_path)
     assert result.returncode == 1

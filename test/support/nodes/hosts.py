@@ -10,7 +10,6 @@ import subprocess
 import sys
 from collections.abc import Mapping
 from pathlib import Path
-from types import TracebackType
 
 _SWITCH = Path(__file__).with_name("lossy_switch.py")
 # A machine's own: network, mounts, name, processes, shared memory, run-time files.
@@ -89,9 +88,7 @@ class Network:
     def __enter__(self) -> Network:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         for host in self.hosts.values():
             host.end()
         self._switch.communicate()  # its standard input ends, and so does it

@@ -10,7 +10,6 @@ import shutil
 import time
 from collections.abc import Callable
 from pathlib import Path
-from types import TracebackType
 
 from hosts import Host, Network
 from typed_page import Shell, blocks_of
@@ -46,16 +45,14 @@ class Laboratory:
             self._witness.type(_WITNESS + " &")
             self.wait(lambda seen: seen.at_rest, _PATIENCE)
         except BaseException:
-            self.network.__exit__(None, None, None)
+            self.network.__exit__()
             raise
 
     def __enter__(self) -> Laboratory:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.network.__exit__(kind, error, trace)
+    def __exit__(self, *_: object) -> None:
+        self.network.__exit__()
 
     def host(self, name: str) -> Host:
         """One of the machines."""

@@ -97,10 +97,10 @@ def interface_file(name: InterfaceName) -> Path:
     )
 
 
-SEPARATOR = "=" * 80
+_SEPARATOR = "=" * 80
 _FEEDBACK = "_FeedbackMessage"
 # Parts the sections of a service or action definition.
-_SECTION = "---"
+_SECTION = re.compile(r"^---[ \t]*(?:\n|\Z)", re.MULTILINE)
 
 _INTEGERS = {f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)}
 _BASIC = {"bool", "byte", "char", "float32", "float64", "string", "wstring", *_INTEGERS}
@@ -135,24 +135,15 @@ def definition_lines(name: InterfaceName, *, comments: bool, nested_comments: bo
         comments: Keep comments and empty lines of the interface itself.
         nested_comments: Keep those of nested types as well.
     """
-    text = _text(name)
-    yield from _expand(text, name.package, 0, comments, nested_comments)
-
-
-def _expand(text: str, package: str, depth: int, comments: bool, nested_comments: bool) -> Iterator[str]:
-    keep = comments if depth == 0 else nested_comments
-    for line in text.splitlines():
+    for line in _text(name).splitlines():
         bare = line.split("#", 1)[0].rstrip()
-        if not keep and not bare:
+        if not comments and not bare:
             continue
         # A `#` inside a default value of a string is kept: only lines without comments are cut.
-        shown = line.rstrip() if keep or '"' in line or "'" in line else bare
-        yield "\t" * depth + shown
-        if bare == _SECTION:
-            continue
-        for nested in referenced_types(line, package):
-            definition = _text(nested)
-            yield from _expand(definition, nested.package, depth + 1, comments, nested_comments)
+        yield line.rstrip() if comments or '"' in line or "'" in line else bare
+        for nested in referenced_types(line, name.package):
+            deeper = definition_lines(nested, comments=nested_comments, nested_comments=nested_comments)
+            yield from (f"\t{nested_line}" for nested_line in deeper)
 
 
 class Schema(NamedTuple):
@@ -177,14 +168,13 @@ def schema_of(type_name: str) -> Schema:
         return _feedback_schema(package, short.removesuffix(_FEEDBACK), type_name)
     root = InterfaceName(package, kind, short)
     if interface_file(root).suffix == ".idl":
-        return Schema(type_name, "ros2idl", f"{SEPARATOR}\nIDL: {type_name}\n{_text(root)}")
+        return Schema(type_name, "ros2idl", f"{_SEPARATOR}\nIDL: {type_name}\n{_text(root)}")
     return Schema(type_name, "ros2msg", _with_dependencies(_text(root), package, {root}))
 
 
 def _feedback_schema(package: str, action: str, type_name: str) -> Schema:
     # An action's feedback travels in a message that no file defines: the goal's identifier and the feedback.
-    definition = _text(InterfaceName(package, "action", action))
-    parts = _split_sections(definition)
+    parts = _SECTION.split(_text(InterfaceName(package, "action", action)))
     if len(parts) != 3:
         raise Ros2CliError(
             "interface_not_found", f"'{package}/action/{action}' has {len(parts)} sections, expected 3"
@@ -192,7 +182,7 @@ def _feedback_schema(package: str, action: str, type_name: str) -> Schema:
     # The three-part name: readers that compute the type's hash find the one that the build gave it.
     feedback = f"{package}/action/{action}_Feedback"
     first = f"unique_identifier_msgs/UUID goal_id\n{feedback} feedback\n"
-    text = f"{first}\n{SEPARATOR}\nMSG: {feedback}\n{parts[2]}"
+    text = f"{first}\n{_SEPARATOR}\nMSG: {feedback}\n{parts[2]}"
     known = {InterfaceName(package, "msg", f"{action}_Feedback")}
     return Schema(type_name, "ros2msg", _with_dependencies(text, package, known))
 
@@ -200,31 +190,16 @@ def _feedback_schema(package: str, action: str, type_name: str) -> Schema:
 def _with_dependencies(text: str, package: str, known: set[InterfaceName]) -> str:
     """Append the definitions that a text needs, depth first, each once."""
     sections = [text]
-    waiting = list(reversed(list(referenced_types(text, package))))
-    while waiting:
-        name = waiting.pop()
-        if name in known:
-            continue
-        known.add(name)
-        definition = _text(name)
-        sections.append(f"\n{SEPARATOR}\nMSG: {name.package}/{name.type}\n{definition}")
-        waiting.extend(reversed(list(referenced_types(definition, name.package))))
+    for name in referenced_types(text, package):
+        if name not in known:
+            known.add(name)
+            head = f"\n{_SEPARATOR}\nMSG: {name.package}/{name.type}\n"
+            sections.append(head + _with_dependencies(_text(name), name.package, known))
     return "".join(sections)
 
 
 def _text(name: InterfaceName) -> str:
     return interface_file(name).read_text(encoding="utf-8")
-
-
-def _split_sections(definition: str) -> list[str]:
-    """Split a service or action definition at its lines of three dashes."""
-    sections: list[list[str]] = [[]]
-    for line in definition.splitlines(keepends=True):
-        if line.rstrip() == _SECTION:
-            sections.append([])
-        else:
-            sections[-1].append(line)
-    return ["".join(section) for section in sections]
 
 
 def installed_type_hash(type_name: str) -> str:

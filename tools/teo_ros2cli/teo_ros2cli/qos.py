@@ -7,10 +7,10 @@ Source of names and numbers: rmw/types.h and rmw/qos_string_conversions.h of ROS
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import yaml
 
@@ -20,7 +20,7 @@ from teo_ros2cli.errors import Ros2CliError
 INFINITE = 2**63 - 1
 
 # Names of the values of each policy; the number of a value is its place.
-_POLICIES: Mapping[str, tuple[str, ...]] = {
+POLICIES: Mapping[str, tuple[str, ...]] = {
     "history": ("system_default", "keep_last", "keep_all", "unknown"),
     "reliability": ("system_default", "reliable", "best_effort", "unknown", "best_available"),
     "durability": ("system_default", "transient_local", "volatile", "unknown", "best_available"),
@@ -80,13 +80,8 @@ class QosRecord:
         unknown = set(tree) - set(cls.__dataclass_fields__)
         if unknown:
             raise ValueError(f"unknown QoS policy {', '.join(sorted(map(str, unknown)))}")
-        values: dict[str, Any] = {}
-        for name, known in _POLICIES.items():
-            if name in tree:
-                values[name] = _policy(name, tree[name], known)
-        for name in DURATIONS:
-            if name in tree:
-                values[name] = _nanoseconds(name, tree[name])
+        values: dict[str, Any] = {name: _policy(name, tree[name]) for name in POLICIES if name in tree}
+        values |= {name: _nanoseconds(name, tree[name]) for name in DURATIONS if name in tree}
         if "depth" in tree:
             depth = tree["depth"]
             if not isinstance(depth, int) or isinstance(depth, bool) or depth < 0:
@@ -97,7 +92,8 @@ class QosRecord:
         return cls(**values)
 
 
-def _policy(name: str, value: Any, known: Sequence[str]) -> str:
+def _policy(name: str, value: Any) -> str:
+    known = POLICIES[name]
     if isinstance(value, str) and value.lower() in known:
         return value.lower()
     if isinstance(value, int | float) and not isinstance(value, bool) and value in range(len(known)):
@@ -123,36 +119,28 @@ def _nanoseconds(name: str, tree: Any) -> int:
     return int(total)
 
 
-class Adapted(NamedTuple):
-    """A chosen profile, and a sentence for each thing that it cannot give."""
-
-    profile: QosRecord
-    warnings: tuple[str, ...]
-
-
-def request_for(topic: str, offers: Sequence[QosRecord]) -> Adapted:
+def request_for(topic: str, offers: Sequence[QosRecord], warn: Callable[[str], object]) -> QosRecord:
     """Choose the strictest request that every publisher of a topic can serve.
 
-    Reliable only if all are reliable; transient local, which brings latched messages, only if all are.
+    Reliable only if all are reliable; transient local, which brings latched messages, only if all are. `warn`
+    is called with a sentence for each of the two that only some publishers offer.
     """
     reliable = [offer.reliability == "reliable" for offer in offers]
     latched = [offer.durability == "transient_local" for offer in offers]
-    warnings: list[str] = []
     if any(reliable) and not all(reliable):
-        warnings.append(
+        warn(
             f'Some, but not all, publishers on topic "{topic}" are reliable. Falling back to best effort, '
             "which connects to all of them; some messages from the reliable ones may be lost."
         )
     if any(latched) and not all(latched):
-        warnings.append(
+        warn(
             f'Some, but not all, publishers on topic "{topic}" are transient local. Falling back to '
             "volatile, which connects to all of them; messages latched before now are not received."
         )
-    profile = QosRecord(
+    return QosRecord(
         reliability="best_effort" if offers and not all(reliable) else "reliable",
         durability="transient_local" if offers and all(latched) else "volatile",
     )
-    return Adapted(profile, tuple(warnings))
 
 
 def serves(offer: QosRecord, request: QosRecord) -> bool:
@@ -167,23 +155,22 @@ def serves(offer: QosRecord, request: QosRecord) -> bool:
 _KEPT = 100
 
 
-def offer_for(topic: str, recorded: Sequence[QosRecord]) -> Adapted:
+def offer_for(topic: str, recorded: Sequence[QosRecord], warn: Callable[[str], object]) -> QosRecord:
     """Choose the profile to publish a recorded topic with: the recorded one if all its publishers agreed.
 
-    Unless it is latched its queue is deeper, so that what is missed can be sent again.
+    Unless it is latched its queue is deeper, so that what is missed can be sent again. `warn` is called with
+    a sentence if the publishers did not agree.
     """
     if not recorded:
-        return Adapted(QosRecord(depth=_KEPT), ())
+        return QosRecord(depth=_KEPT)
     # History and lifespan do not decide who connects to whom.
     effective = {replace(profile, history="keep_last", depth=0, lifespan=INFINITE) for profile in recorded}
     if len(effective) > 1:
-        return Adapted(
-            QosRecord(depth=_KEPT),
-            (
-                f"Not all original publishers on topic {topic} offered the same QoS profiles; "
-                "publishing with the default profile.",
-            ),
+        warn(
+            f"Not all original publishers on topic {topic} offered the same QoS profiles; "
+            "publishing with the default profile."
         )
+        return QosRecord(depth=_KEPT)
     profile = recorded[0]
     if profile.history not in ("keep_last", "keep_all") or (
         profile.history == "keep_last" and not profile.depth
@@ -191,17 +178,9 @@ def offer_for(topic: str, recorded: Sequence[QosRecord]) -> Adapted:
         profile = replace(profile, history="keep_last", depth=QosRecord.depth)
     if profile.durability != "transient_local" and profile.history == "keep_last":
         profile = replace(profile, depth=max(profile.depth, _KEPT))
-    return Adapted(_settled(profile), ())
-
-
-def _settled(profile: QosRecord) -> QosRecord:
-    """Replace policies that discovery did not tell, which nobody can be asked for, by the defaults."""
-    values = {
-        name: getattr(QosRecord, name)
-        for name in ("reliability", "durability", "liveliness")
-        if getattr(profile, name) == "unknown"
-    }
-    return replace(profile, **values)
+    # Discovery did not tell these, and nobody can be asked for them.
+    unknown = [n for n in ("reliability", "durability", "liveliness") if getattr(profile, n) == "unknown"]
+    return replace(profile, **{name: getattr(QosRecord, name) for name in unknown})
 
 
 def read_overrides(path: Path | None) -> dict[str, QosRecord]:
@@ -226,7 +205,7 @@ def read_overrides(path: Path | None) -> dict[str, QosRecord]:
 
 def to_record(profile: Any) -> QosRecord:
     """Return what a bag stores of a profile of rclpy's."""
-    policies: dict[str, Any] = {name: getattr(profile, name).name.lower() for name in _POLICIES}
+    policies: dict[str, Any] = {name: getattr(profile, name).name.lower() for name in POLICIES}
     # Zero stands for unspecified.
     times: dict[str, Any] = {name: getattr(profile, name).nanoseconds or INFINITE for name in DURATIONS}
     avoid = bool(profile.avoid_ros_namespace_conventions)
@@ -241,7 +220,7 @@ def from_record(record: QosRecord) -> Any:
     return QoSProfile(
         depth=record.depth,
         avoid_ros_namespace_conventions=record.avoid_ros_namespace_conventions,
-        **{name: _policy_class(name)[getattr(record, name).upper()] for name in _POLICIES},
+        **{name: _policy_class(name)[getattr(record, name).upper()] for name in POLICIES},
         **{name: Duration(nanoseconds=getattr(record, name)) for name in DURATIONS},
     )
 
@@ -252,9 +231,9 @@ def from_options(options: Any) -> Any:
     from rclpy.qos import DurabilityPolicy, QoSPresetProfiles, QoSProfile
 
     # The presets are shared objects: a copy is changed.
-    preset = QoSPresetProfiles.get_from_short_key(options.qos_profile)
+    preset = QoSPresetProfiles.get_from_short_key(options.qos_profile or options.default_preset)
     profile = QoSProfile(**{slot[1:]: getattr(preset, slot[1:]) for slot in QoSProfile.__slots__})
-    for name in _POLICIES:
+    for name in POLICIES:
         if word := getattr(options, f"qos_{name}"):
             setattr(profile, name, _policy_class(name).get_from_short_key(word))
     if options.qos_liveliness_lease_duration_seconds is not None:
@@ -264,6 +243,12 @@ def from_options(options: Any) -> Any:
     elif profile.durability == DurabilityPolicy.TRANSIENT_LOCAL and profile.depth == 0:
         profile.depth = 1
     return profile
+
+
+def asked_record(options: Any) -> QosRecord | None:
+    """Return the profile that the `--qos-*` options of a command describe, None if none of them is given."""
+    given = {name for name, value in vars(options).items() if name.startswith("qos_") and value is not None}
+    return to_record(from_options(options)) if given else None
 
 
 def _policy_class(name: str) -> Any:

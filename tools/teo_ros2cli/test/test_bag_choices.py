@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 import re
-import tempfile
 from pathlib import Path
 
 import pytest
+import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
 from teo_ros2cli.bags.metadata import (
     BagMetadata,
     TopicRecord,
+    block_text,
     offered_qos_text,
     parse_offered_qos,
-    read_metadata,
-    write_metadata,
 )
 from teo_ros2cli.bags.playback import Schedule
 from teo_ros2cli.bags.selection import TopicSelection, is_hidden
-from teo_ros2cli.bags.writer import Arrival, BackgroundWriter, BagWriter
+from teo_ros2cli.bags.writer import BackgroundWriter, BagWriter
 from teo_ros2cli.errors import Ros2CliError
 from teo_ros2cli.interfaces import schema_of
 from teo_ros2cli.qos import QosRecord, offer_for, read_overrides, request_for, serves
@@ -47,24 +46,26 @@ LATCHED = QosRecord(durability="transient_local")
 def test_the_request_is_the_strictest_that_all_publishers_serve(
     offers: list[QosRecord], reliability: str, durability: str, warnings: int
 ) -> None:
-    adapted = request_for("/t", offers)
-    assert (adapted.profile.reliability, adapted.profile.durability) == (reliability, durability)
-    assert len(adapted.warnings) == warnings
-    assert all(serves(offer, adapted.profile) for offer in offers)
+    told: list[str] = []
+    request = request_for("/t", offers, told.append)
+    assert (request.reliability, request.durability, len(told)) == (reliability, durability, warnings)
+    assert all(serves(offer, request) for offer in offers)
 
 
 def test_a_recorded_profile_is_offered_again_if_all_publishers_agreed() -> None:
     seen = QosRecord(history="unknown", depth=0, durability="transient_local", deadline=10**9)
-    offer = offer_for("/t", [seen, seen])
-    assert (offer.profile.durability, offer.profile.deadline) == ("transient_local", 10**9)
-    assert (offer.profile.history, offer.profile.depth) == ("keep_last", 10)
-    mixed = offer_for("/t", [LATCHED, RELIABLE])
-    assert mixed.profile == offer_for("/t", []).profile
-    assert len(mixed.warnings) == 1
+    told: list[str] = []
+    offer = offer_for("/t", [seen, seen], told.append)
+    assert (offer.durability, offer.deadline) == ("transient_local", 10**9)
+    assert (offer.history, offer.depth) == ("keep_last", 10)
     # What a reliable subscription missed is still there when it asks again: a second of 100 Hz at least.
-    for offer in (mixed, offer_for("/t", [RELIABLE])):
-        assert (offer.profile.reliability, offer.profile.durability) == ("reliable", "volatile")
-        assert offer.profile.depth >= 100
+    offer = offer_for("/t", [RELIABLE], told.append)
+    assert (offer.reliability, offer.durability) == ("reliable", "volatile")
+    assert offer.depth >= 100
+    assert offer_for("/t", [], told.append) == offer
+    assert told == []
+    assert offer_for("/t", [LATCHED, RELIABLE], told.append) == offer
+    assert len(told) == 1
 
 
 def test_profiles_survive_their_text_and_old_numbers_are_understood() -> None:
@@ -109,11 +110,10 @@ def test_overrides_are_read_from_a_file(tmp_path: Path) -> None:
 
 
 @given(st.dictionaries(st.text(max_size=8), st.text(max_size=90), max_size=4))
-def test_custom_data_of_any_text_are_read_back_from_the_metadata(custom: dict[str, str]) -> None:
-    metadata = BagMetadata((), ((TopicRecord("/a", "p/msg/T", "", (LATCHED,)), 3),), 5, 7, custom_data=custom)
-    with tempfile.TemporaryDirectory() as folder:
-        write_metadata(Path(folder), metadata)
-        assert read_metadata(Path(folder)) == metadata
+def test_custom_data_of_any_text_are_read_back_from_the_text_of_metadata(custom: dict[str, str]) -> None:
+    tree = BagMetadata((), (), 5, 7, custom_data=custom).to_tree()
+    read = yaml.safe_load(block_text({"rosbag2_bagfile_information": tree}))
+    assert (read["rosbag2_bagfile_information"]["custom_data"] or {}) == custom
 
 
 # Which topics
@@ -138,17 +138,9 @@ def test_names_types_and_patterns_add_up() -> None:
     selection = TopicSelection(
         names=frozenset({"/a", "/_hidden"}), types=frozenset({"x/msg/Y"}), pattern=re.compile("^/arm/")
     )
-    chosen = {
-        name: selection.accepts(name, kind)
-        for name, kind in (
-            ("/a", "t"),
-            ("/_hidden", "t"),
-            ("/b", "x/msg/Y"),
-            ("/arm/1", "t"),
-            ("/c/arm/1", "t"),
-        )
-    }
-    assert chosen == {"/a": True, "/_hidden": True, "/b": True, "/arm/1": True, "/c/arm/1": False}
+    topics = {"/a": "t", "/_hidden": "t", "/b": "x/msg/Y", "/arm/1": "t", "/c/arm/1": "t"}
+    chosen = [name for name, kind in topics.items() if selection.accepts(name, kind)]
+    assert chosen == ["/a", "/_hidden", "/b", "/arm/1"]
     assert not selection.only_names
     assert TopicSelection(names=frozenset({"/a"})).only_names
     assert is_hidden("/a/_b") and not is_hidden("/a_/b_c")
@@ -182,11 +174,11 @@ def test_what_does_not_fit_the_cache_is_refused_and_the_rest_written(tmp_path: P
     bag = BagWriter(tmp_path / "bag")
     slow = BackgroundWriter(bag, cache_size=1000)
     slow.add_topic(TopicRecord("/t", "std_msgs/msg/String"), schema_of("std_msgs/msg/String"))
-    taken = sum(slow.write(Arrival("/t", i, i, b"x" * 900)) for i in range(2000))
+    taken = sum(slow.write("/t", i, i, b"x" * 900) for i in range(2000))
     metadata = slow.close()
     assert metadata.messages == taken >= 1
     # One message that is larger than the cache must not be lost for ever.
     second = BackgroundWriter(BagWriter(tmp_path / "second"), cache_size=10)
     second.add_topic(TopicRecord("/t", "std_msgs/msg/String"), schema_of("std_msgs/msg/String"))
-    assert second.write(Arrival("/t", 1, 1, b"x" * 100))
+    assert second.write("/t", 1, 1, b"x" * 100)
     assert second.close().messages == 1

@@ -18,7 +18,10 @@ from typing import Any
 import pytest
 from ros2_words import FILE, words_table
 
+from teo_ros2cli.bags.metadata import TopicRecord
+from teo_ros2cli.bags.writer import BagWriter
 from teo_ros2cli.cli import options
+from teo_ros2cli.interfaces import schema_of
 from teo_ros2cli.main import COMMANDS
 
 
@@ -91,8 +94,8 @@ def test_run_takes_a_prefix(ros2: Callable[..., Any]) -> None:
         (["tools", "broken"], "cannot be started"),
     ],
 )
-def test_run_says_what_is_missing(ros2: Callable[..., Any], words: list[str], sentence: str) -> None:
-    done = ros2("run", *words)
+def test_run_says_what_is_missing(ros2_here: Callable[..., Any], words: list[str], sentence: str) -> None:
+    done = ros2_here("run", *words)
     assert sentence in done.stderr
     assert (done.returncode, done.stdout) == (1, "")
 
@@ -111,7 +114,8 @@ def test_executables_are_listed(tools: Path, ros2_here: Callable[..., Any]) -> N
 
 
 def test_help_is_everywhere(ros2: Callable[..., Any]) -> None:
-    assert all(f"  {name}" in ros2("-h").stdout for name in COMMANDS)
+    listing = ros2("-h").stdout
+    assert all(f"  {name}" in listing for name in COMMANDS)
     # One process for all: each costs a tenth of a second.
     script = (
         "import sys, contextlib; from teo_ros2cli.main import COMMANDS, main\n"
@@ -238,17 +242,12 @@ def test_datagrams_to_a_group_are_sent_and_received(start: Callable[..., Any], r
 
 
 def test_bag_info_tells_what_is_wrong(tmp_path: Path, ros2_here: Callable[..., Any]) -> None:
-    from teo_ros2cli.bags.metadata import TopicRecord
-    from teo_ros2cli.bags.writer import BagWriter
-    from teo_ros2cli.interfaces import schema_of
-
-    for name, count in (("good", 1000), ("empty", 0)):
+    for name, count in (("good", 50), ("empty", 0)):
         writer = BagWriter(tmp_path / name)
         writer.add_topic(TopicRecord("/t", "std_msgs/msg/UInt8"), schema_of("std_msgs/msg/UInt8"))
         for i in range(count):
-            writer.write("/t", 10**18 + i, 10**18 + i, b"\0\1\0\0" + bytes([i % 256]))
-            if i % 100 == 99:
-                writer.flush()
+            writer.write("/t", 10**18 + i, 10**18 + i, b"\0\1\0\0" + bytes([i]))
+            writer.flush()
         writer.close()
     assert ros2_here("bag", "info", "-t", str(tmp_path / "good" / "good_0.mcap")).stdout == "/t\n"
 
@@ -263,7 +262,7 @@ def test_bag_info_tells_what_is_wrong(tmp_path: Path, ros2_here: Callable[..., A
     assert "is truncated or damaged" in cut.stderr
     assert " messages can be read" in cut.stderr
     count = next(int(line.split()[1]) for line in cut.stdout.splitlines() if line.startswith("Messages:"))
-    assert 300 <= count < 1000
+    assert 15 <= count < 50
 
     path.write_bytes(b"")
     for bad in (tmp_path / "good", path, tmp_path / "nowhere"):
@@ -313,19 +312,8 @@ def test_a_reader_that_leaves_is_no_error(ros2_path: Path) -> None:
 
 
 def test_the_choices_of_quality_are_those_of_rclpy() -> None:
-    from rclpy.qos import (
-        DurabilityPolicy,
-        HistoryPolicy,
-        LivelinessPolicy,
-        QoSPresetProfiles,
-        ReliabilityPolicy,
-    )
+    from rclpy import qos
 
-    assert set(options.QOS_PRESETS) == set(QoSPresetProfiles.short_keys())
-    for choices, policy in (
-        (options.QOS_POLICIES["history"], HistoryPolicy),
-        (options.QOS_POLICIES["reliability"], ReliabilityPolicy),
-        (options.QOS_POLICIES["durability"], DurabilityPolicy),
-        (options.QOS_POLICIES["liveliness"], LivelinessPolicy),
-    ):
-        assert set(choices) == set(policy.short_keys())
+    assert set(options.QOS_PRESETS) == set(qos.QoSPresetProfiles.short_keys())
+    for name, choices in options.QOS_POLICIES.items():
+        assert set(choices) == set(getattr(qos, f"{name.capitalize()}Policy").short_keys())

@@ -21,11 +21,6 @@ def test_discovery_ports_of_the_domain_are_counted_once() -> None:
     assert count_participants(table(7410, 7411, 53, 65535), 0) == 1
 
 
-def test_an_odd_table_counts_nothing() -> None:
-    assert count_participants("", 0) == 0
-    assert count_participants(HEADER + "nonsense\n 1: zz:xx\n 2:\n", 0) == 0
-
-
 def test_what_appears_a_moment_late_is_found_and_what_never_comes_ends_the_look() -> None:
     looks = iter([[], [], ["std_msgs/msg/String"]])
     assert look_again(lambda: next(looks)) == ["std_msgs/msg/String"]

@@ -120,18 +120,13 @@ def open_bag(path: Path, *, verify: bool = False) -> Bag:
     """
     require_bag(path)
     if not path.is_dir():
-        return _from_files(path, (path,), (), verify)
-    problems: list[str] = []
+        return _from_files(path, (path,), [], verify)
     try:
         metadata = read_metadata(path)
     except Ros2CliError as error:
-        if error.code != "metadata_missing":
-            problems.append(f"{error}; reading the files themselves")
-        else:
-            problems.append(
-                f"'{path}' has no {FILE_NAME}: its recorder did not finish; reading the files themselves"
-            )
-        return _from_files(path, _files_in(path), tuple(problems), verify)
+        unfinished = f"'{path}' has no {FILE_NAME}: its recorder did not finish"
+        reason = unfinished if error.code == "metadata_missing" else error
+        return _from_files(path, _files_in(path), [f"{reason}; reading the files themselves"], verify)
     if metadata.storage != "mcap":
         raise Ros2CliError(
             "storage_unsupported", f"'{path}' is stored as '{metadata.storage}': only 'mcap' can be read here"
@@ -139,11 +134,9 @@ def open_bag(path: Path, *, verify: bool = False) -> Bag:
     files = tuple(path / record.path for record in metadata.files)
     missing = [file for file in files if not file.is_file()]
     if missing or verify:
-        problems += [f"'{file}' is named in the metadata, but missing" for file in missing]
-        return _from_files(
-            path, tuple(file for file in files if file.is_file()), tuple(problems), verify, metadata
-        )
-    return Bag(path, files, metadata, tuple(problems))
+        problems = [f"'{file}' is named in the metadata, but missing" for file in missing]
+        return _from_files(path, tuple(file for file in files if file.is_file()), problems, verify, metadata)
+    return Bag(path, files, metadata, ())
 
 
 def _files_in(directory: Path) -> tuple[Path, ...]:
@@ -161,12 +154,11 @@ def _natural(path: Path) -> list[tuple[int, str]]:
 def _from_files(
     path: Path,
     files: tuple[Path, ...],
-    problems: tuple[str, ...],
+    problems: list[str],
     verify: bool,
     metadata: BagMetadata | None = None,
 ) -> Bag:
     """Make the metadata from the files; what the metadata alone know is taken from there."""
-    found = list(problems)
     topics: dict[str, TopicRecord] = {topic.name: topic for topic, _ in metadata.topics} if metadata else {}
     counts: dict[str, int] = dict.fromkeys(topics, 0)
     records: list[FileRecord] = []
@@ -176,18 +168,17 @@ def _from_files(
         report = None if verify else summary_report(file)
         if report is None:
             report = scan(file)
-            found += _problems_of(file, report)
+            problems += _problems_of(file, report)
         reports.append(report)
-        distro = distro or report.metadata.get("rosbag2", {}).get("ROS_DISTRO", "") or _distro_in(report)
-        for topic in _topics_of(report, found):
+        distro = distro or _distro_in(report)
+        for topic in _topics_of(report, problems):
             topics.setdefault(topic.name, topic)
             counts[topic.name] = counts.get(topic.name, 0) + report.counts.get(topic.name, 0)
-        duration = max(report.end - report.start, 0)
-        records.append(FileRecord(file.name, report.start, duration, report.messages))
+        records.append(report.span.record(file))
     if metadata and (lost := metadata.messages - sum(counts.values())) > 0:
-        found.append(f"{lost} of {metadata.messages} messages that the metadata count cannot be read")
+        problems.append(f"{lost} of {metadata.messages} messages that the metadata count cannot be read")
     start = min((record.start for record in records), default=NO_START)
-    end = max((report.end for report in reports), default=0)
+    end = max((report.span.end for report in reports), default=0)
     made = BagMetadata(
         files=tuple(records),
         topics=tuple((topic, counts[name]) for name, topic in topics.items()),
@@ -196,14 +187,13 @@ def _from_files(
         custom_data=metadata.custom_data if metadata else {},
         ros_distro=distro,
     )
-    return Bag(path, files, made, tuple(found))
+    return Bag(path, files, made, tuple(problems))
 
 
 def _distro_in(report: FileReport) -> str:
-    match = re.search(
-        r"^ros_distro: (\w+)", report.metadata.get("rosbag2", {}).get("serialized_metadata", ""), re.M
-    )
-    return match[1] if match else ""
+    told = report.metadata.get("rosbag2", {})
+    match = re.search(r"^ros_distro: (\w+)", told.get("serialized_metadata", ""), re.M)
+    return told.get("ROS_DISTRO", "") or (match[1] if match else "")
 
 
 def _topics_of(report: FileReport, problems: list[str]) -> Iterator[TopicRecord]:

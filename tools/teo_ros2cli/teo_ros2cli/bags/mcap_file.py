@@ -21,23 +21,40 @@ from teo_ros2cli.interfaces import Schema
 
 
 @dataclass
+class Span:
+    """First and last time [ns since the epoch] of some messages, and their number."""
+
+    start: int = NO_START
+    end: int = 0
+    messages: int = 0
+
+    def add(self, time: int) -> None:
+        """Count a message of this time."""
+        self.start = min(self.start, time)
+        self.end = max(self.end, time)
+        self.messages += 1
+
+    @property
+    def duration(self) -> int:
+        """From the first message to the last [ns]; 0 without messages."""
+        return max(self.end - self.start, 0)
+
+    def record(self, file: Path) -> FileRecord:
+        """Return what the metadata say of a file with these messages."""
+        return FileRecord(file.name, self.start, self.duration, self.messages)
+
+
+@dataclass
 class FileReport(McapContent):
     """What was found in a file, with its messages counted.
 
     Args:
         counts: Messages by topic name.
-        start: Time of the first message [ns], `NO_START` without messages.
-        end: Time of the last message [ns].
+        span: Of the messages of all topics.
     """
 
     counts: dict[str, int] = field(default_factory=dict)
-    start: int = NO_START
-    end: int = 0
-
-    @property
-    def messages(self) -> int:
-        """Number of messages of all topics."""
-        return sum(self.counts.values())
+    span: Span = field(default_factory=Span)
 
 
 def stored_schema(schema: McapSchema) -> Schema:
@@ -62,9 +79,10 @@ def summary_report(path: Path) -> FileReport | None:
                 report.channels[channel.topic] = channel
                 count = summary.statistics.channel_message_counts.get(identifier, 0)
                 report.counts[channel.topic] = report.counts.get(channel.topic, 0) + count
+            report.span.messages = sum(report.counts.values())
             if summary.statistics.message_count:
-                report.start = summary.statistics.message_start_time
-                report.end = summary.statistics.message_end_time
+                report.span.start = summary.statistics.message_start_time
+                report.span.end = summary.statistics.message_end_time
             for record in reader.iter_metadata():
                 report.metadata[record.name] = dict(record.metadata)
             report.profile = reader.get_header().profile
@@ -82,8 +100,7 @@ def scan(path: Path) -> FileReport:
     report = FileReport()
     for message in messages_of(path, report):
         report.counts[message.topic] = report.counts.get(message.topic, 0) + 1
-        report.start = min(report.start, message.log_time)
-        report.end = max(report.end, message.log_time)
+        report.span.add(message.log_time)
     return report
 
 
@@ -109,7 +126,7 @@ def _faults_told(path: Path) -> Iterator[None]:
         raise Ros2CliError("bag_unreadable", f"'{path}' cannot be read: {error.strerror or error}") from error
 
 
-PROFILE = "ros2"
+_PROFILE = "ros2"
 _LIBRARY = "teo_ros2cli"
 
 
@@ -136,26 +153,6 @@ PRESETS: Mapping[str, _Preset] = {
     "zstd_small": _Preset(4 * 1024 * 1024, CompressionType.ZSTD),
 }
 DEFAULT_PRESET = "zstd_fast"
-
-
-@dataclass
-class Span:
-    """First and last time [ns since the epoch] of some messages, and their number."""
-
-    start: int = NO_START
-    end: int = 0
-    messages: int = 0
-
-    def add(self, time: int) -> None:
-        """Count a message of this time."""
-        self.start = min(self.start, time)
-        self.end = max(self.end, time)
-        self.messages += 1
-
-    @property
-    def duration(self) -> int:
-        """From the first message to the last [ns]."""
-        return self.end - self.start if self.messages else 0
 
 
 class BagFileWriter:
@@ -187,7 +184,7 @@ class BagFileWriter:
             index_types=IndexType.ALL,
             enable_crcs=preset.checksums,
         )
-        self._writer.start(profile=PROFILE, library=_LIBRARY)
+        self._writer.start(profile=_PROFILE, library=_LIBRARY)
         self._writer.add_metadata("rosbag2", {"ROS_DISTRO": ros_distro})
         self.flush()
 
@@ -234,7 +231,7 @@ class BagFileWriter:
     @property
     def record(self) -> FileRecord:
         """What the metadata say of the file."""
-        return FileRecord(self._path.name, self.span.start, self.span.duration, self.span.messages)
+        return self.span.record(self._path)
 
     def close(self, metadata: str = "") -> None:
         """Write the index and close the file.

@@ -143,7 +143,7 @@ def reindex(path: Path, on_progress: Callable[[str], object] = str) -> Bag:
         report = scan(file)
         if report.complete and not report.damaged_chunks and summary_report(file) is not None:
             continue
-        on_progress(f"'{file}': repairing, {report.messages} messages can be read")
+        on_progress(f"'{file}': repairing, {report.span.messages} messages can be read")
         _rewrite(file, before)
     after = open_bag(path, verify=True)
     if path.is_dir():

@@ -7,10 +7,10 @@ from __future__ import annotations
 import queue
 import threading
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
-from typing import NamedTuple
 
 from teo_ros2cli.bags.mcap_file import DEFAULT_PRESET, PRESETS, BagFileWriter, Span
 from teo_ros2cli.bags.metadata import BagMetadata, FileRecord, TopicRecord, block_text, write_metadata
@@ -145,21 +145,6 @@ class BagWriter:
 _FLUSH_INTERVAL = 1.0
 
 
-class Arrival(NamedTuple):
-    """A message to be written; see `BagWriter.write`."""
-
-    topic: str
-    log_time: int
-    publish_time: int
-    data: bytes
-    sequence: int = 0
-
-
-class _NewTopic(NamedTuple):
-    topic: TopicRecord
-    schema: Schema
-
-
 class BackgroundWriter:
     """Passes topics and messages to a bag in the order in which they came.
 
@@ -171,9 +156,11 @@ class BackgroundWriter:
     def __init__(self, writer: BagWriter, cache_size: int) -> None:
         self._writer = writer
         self._cache_size = cache_size
-        self._queue: queue.SimpleQueue[Arrival | _NewTopic | None] = queue.SimpleQueue()
+        # What is to be done with the bag; None for nothing more.
+        self._queue: queue.SimpleQueue[Callable[[], None] | None] = queue.SimpleQueue()
         self._lock = threading.Lock()
         self._waiting = 0
+        self._unflushed = False
         self._failure: Exception | None = None
         self._thread = threading.Thread(target=self._run, name="bag writer")
         self._thread.start()
@@ -193,16 +180,16 @@ class BackgroundWriter:
 
     def add_topic(self, topic: TopicRecord, schema: Schema) -> None:
         """Make a topic known before its first message, or tell its profiles anew."""
-        self._queue.put(_NewTopic(topic, schema))
+        self._queue.put(partial(self._writer.add_topic, topic, schema))
 
-    def write(self, arrival: Arrival) -> bool:
-        """Take a message; False if too much waits already, and the message is not taken."""
-        size = len(arrival.data)
+    def write(self, topic: str, log_time: int, publish_time: int, data: bytes, sequence: int = 0) -> bool:
+        """Take a message as `BagWriter.write`; False if too much waits already, and it is not taken."""
+        size = len(data)
         with self._lock:
             if self._cache_size and self._waiting and self._waiting + size > self._cache_size:
                 return False
             self._waiting += size
-        self._queue.put(arrival)
+        self._queue.put(partial(self._write, topic, log_time, publish_time, data, sequence))
         return True
 
     def close(self) -> BagMetadata:
@@ -221,35 +208,31 @@ class BackgroundWriter:
         return metadata
 
     def _run(self) -> None:
-        flushed, dirty = time.monotonic(), False
+        flushed = time.monotonic()
         while True:
             try:
-                item = self._queue.get(timeout=_FLUSH_INTERVAL)
+                act = self._queue.get(timeout=_FLUSH_INTERVAL)
             except queue.Empty:
-                item = _NOTHING
-            if item is None:
+                act = _do_nothing
+            if act is None:
                 return
+            if self._failure is not None:
+                continue
             try:
-                if self._failure is None:
-                    dirty = self._pass_on(item) or dirty
-                    now = time.monotonic()
-                    if dirty and now - flushed >= _FLUSH_INTERVAL:
-                        self._writer.flush()
-                        flushed, dirty = now, False
+                act()
+                now = time.monotonic()
+                if self._unflushed and now - flushed >= _FLUSH_INTERVAL:
+                    self._writer.flush()
+                    flushed, self._unflushed = now, False
             except Exception as error:  # told by check() to whoever uses the bag
                 self._failure = error
 
-    def _pass_on(self, item: Arrival | _NewTopic) -> bool:
-        """Hand an item to the bag; True if it was a message."""
-        if isinstance(item, _NewTopic):
-            if item is not _NOTHING:
-                self._writer.add_topic(item.topic, item.schema)
-            return False
-        self._writer.write(*item)
+    def _write(self, topic: str, log_time: int, publish_time: int, data: bytes, sequence: int) -> None:
+        self._writer.write(topic, log_time, publish_time, data, sequence)
+        self._unflushed = True
         with self._lock:
-            self._waiting -= len(item.data)
-        return True
+            self._waiting -= len(data)
 
 
-# Stands for a moment in which nothing came.
-_NOTHING = _NewTopic(TopicRecord("", ""), Schema("", "", ""))
+def _do_nothing() -> None:
+    pass

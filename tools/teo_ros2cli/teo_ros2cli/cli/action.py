@@ -21,6 +21,10 @@ from teo_ros2cli.cli.options import (
     print_types,
 )
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.graph.cli_node import cli_node, wait_for
+from teo_ros2cli.interfaces import interface_class
+from teo_ros2cli.messages.fill import fill_from_text
+from teo_ros2cli.messages.tree import dump, message_tree
 
 # Numbers of action_msgs/msg/GoalStatus.
 _STATUS = {
@@ -119,16 +123,11 @@ def run_send_goal(options: argparse.Namespace) -> int:
     Raises:
         Ros2CliError: `invalid_type`, `invalid_yaml`, `invalid_field`, `goal_rejected`.
     """
-    from teo_ros2cli.interfaces import interface_class
-    from teo_ros2cli.messages.fill import fill_from_text
-
     cls = interface_class(options.action_type, "action")
     goal = cls.Goal()
     fill_from_text(goal, given_values(options, "goal"))
 
     from rclpy.action import ActionClient
-
-    from teo_ros2cli.graph.cli_node import cli_node, wait_for
 
     # SIGINT is to cancel the goal, which takes a context that lives on.
     with cli_node(own_signals=True) as node:
@@ -152,8 +151,6 @@ def run_send_goal(options: argparse.Namespace) -> int:
 
 def _result(node: Any, handle: Any) -> Any:
     """Wait for a goal's result; an interruption cancels the goal, a second one ends the waiting."""
-    from teo_ros2cli.graph.cli_node import wait_for
-
     future = handle.get_result_async()
     try:
         return wait_for(node, future)
@@ -165,6 +162,4 @@ def _result(node: Any, handle: Any) -> Any:
 
 
 def _indented(message: Any) -> str:
-    from teo_ros2cli.messages.tree import dump, message_tree
-
     return textwrap.indent(dump(message_tree(message)), "    ")

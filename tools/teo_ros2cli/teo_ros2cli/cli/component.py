@@ -10,6 +10,8 @@ from typing import Any
 
 from teo_ros2cli.cli.options import add_graph_arguments, assignment, full_name, known_graph, positive_int
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.graph.cli_node import call
+from teo_ros2cli.interfaces import interface_class
 from teo_ros2cli.packages import resources
 
 _LISTING = "/_container/list_nodes"
@@ -43,7 +45,7 @@ def run_list(options: argparse.Namespace) -> int:
         for container in containers:
             print(container)
             if not options.containers_only:
-                answer = _call(node, container, "ListNodes", "list_nodes")
+                answer = _call(node, container, "list_nodes")
                 for number, name in zip(answer.unique_ids, answer.full_node_names, strict=True):
                     print(f"  {number}  {name}")
     return 0
@@ -80,7 +82,6 @@ def run_load(options: argparse.Namespace) -> int:
         answer = _call(
             node,
             container,
-            "LoadNode",
             "load_node",
             timeout=_LOADING_TIMEOUT,
             package_name=options.package_name,
@@ -123,7 +124,7 @@ def run_unload(options: argparse.Namespace) -> int:
     with known_graph(options) as node:
         container = _known(_containers(node), options.container_node_name)
         for number in options.component_uid:
-            answer = _call(node, container, "UnloadNode", "unload_node", unique_id=number)
+            answer = _call(node, container, "unload_node", unique_id=number)
             if not answer.success:
                 raise Ros2CliError(
                     "unload_failed",
@@ -156,13 +157,9 @@ def _parameters(assignments: list[tuple[str, str]]) -> Iterator[Any]:
         yield Parameter(name=name, value=get_parameter_value(value))
 
 
-def _call(
-    node: Any, container: str, kind: str, service: str, *, timeout: float = _TIMEOUT, **request: Any
-) -> Any:
-    """Call a container's service, such as `list_nodes`, of a type of composition_interfaces/srv."""
-    from teo_ros2cli.graph.cli_node import call
-    from teo_ros2cli.interfaces import interface_class
-
+def _call(node: Any, container: str, service: str, *, timeout: float = _TIMEOUT, **request: Any) -> Any:
+    """Call a container's `list_nodes`, of composition_interfaces/srv/ListNodes, and the like."""
+    kind = service.title().replace("_", "")
     try:
         cls = interface_class(f"composition_interfaces/srv/{kind}", "srv")
     except Ros2CliError as error:
@@ -171,7 +168,7 @@ def _call(
             "Containers cannot be asked: package 'composition_interfaces' is not installed; `make setup` "
             "builds it. `component list --containers-only` lists the containers.",
         ) from error
-    return call(node, cls, f"{container}/_container/{service}", cls.Request(**request), timeout=timeout)
+    return call(node, cls, f"{container}/_container/{service}", timeout=timeout, **request)
 
 
 def add_types_arguments(parser: argparse.ArgumentParser) -> None:

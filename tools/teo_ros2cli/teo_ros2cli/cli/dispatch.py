@@ -52,7 +52,7 @@ def choose(program: str, kind: str, group: Group, words: Sequence[str]) -> int:
         description=group.summary,
         epilog=metavar,
         usage=f"{program} [-h] {metavar} ...",
-        formatter_class=_ListingFormatter,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     listing = parser.add_argument_group(f"{kind.capitalize()}s")
     width = max(map(len, entries)) + 2
@@ -73,15 +73,6 @@ def choose(program: str, kind: str, group: Group, words: Sequence[str]) -> int:
     if isinstance(chosen, Group):
         return choose(f"{program} {name}", "verb", chosen, words[1:])
     return _call(f"{program} {name}", chosen, words[1:])
-
-
-class _ListingFormatter(argparse.HelpFormatter):
-    """Keeps the line breaks of the listing."""
-
-    def _fill_text(self, text: str, width: int, indent: str) -> str:
-        if "\n" in text:
-            return "".join(f"{indent}{line}\n" for line in text.splitlines()).rstrip("\n")
-        return super()._fill_text(text, width, indent)
 
 
 def add_arguments(parser: argparse.ArgumentParser, entry: Entry) -> None:

@@ -17,6 +17,7 @@ from teo_ros2cli.cli.options import (
     print_nodes,
 )
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.graph.cli_node import call
 from teo_ros2cli.graph.discovery import node_names
 
 # Time that a node gets to answer [s], as for parameters.
@@ -29,9 +30,7 @@ _NAMED = "Accepted; a node that is named is found, hidden or not"
 _GET_STATE = ("get_state", "lifecycle_msgs/srv/GetState")
 
 
-def add_nodes_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of `nodes`."""
-    add_node_listing_arguments(parser)
+add_nodes_arguments = add_node_listing_arguments
 
 
 def run_nodes(options: argparse.Namespace) -> int:
@@ -57,16 +56,13 @@ def run_get(options: argparse.Namespace) -> int:
     """
     with known_graph(options, names=True) as node:
         if options.node_name:
-            state = _call(node, _known(node, options.node_name), "GetState", "get_state").current_state
-            print(f"{state.label} [{state.id}]")
+            print(_state(node, _known(node, options.node_name)))
             return 0
         for name in _managed(node, hidden=options.include_hidden_nodes):
             try:
-                state = _call(node, name, "GetState", "get_state").current_state
+                print(f"{name}: {_state(node, name)}")
             except Ros2CliError as error:
                 print(f"{name}: {error}", file=sys.stderr)
-                continue
-            print(f"{name}: {state.label} [{state.id}]")
     return 0
 
 
@@ -147,6 +143,11 @@ def _known(node: Any, name: str) -> str:
     return full
 
 
+def _state(node: Any, name: str) -> str:
+    state = _call(node, name, "GetState", "get_state").current_state
+    return f"{state.label} [{state.id}]"
+
+
 def _transitions(node: Any, name: str, service: str) -> list[Any]:
     return list(_call(node, name, "GetAvailableTransitions", service).available_transitions)
 
@@ -155,7 +156,4 @@ def _call(node: Any, name: str, kind: str, service: str, *, timeout: float = _TI
     """Call a managed node's service, such as `get_state`, of a type of lifecycle_msgs/srv."""
     from lifecycle_msgs import srv
 
-    from teo_ros2cli.graph.cli_node import call
-
-    cls = getattr(srv, kind)
-    return call(node, cls, f"{name}/{service}", cls.Request(**request), timeout=timeout)
+    return call(node, getattr(srv, kind), f"{name}/{service}", timeout=timeout, **request)

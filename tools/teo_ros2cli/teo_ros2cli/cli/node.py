@@ -16,12 +16,9 @@ from teo_ros2cli.cli.options import (
     print_nodes,
 )
 from teo_ros2cli.errors import Ros2CliError
-from teo_ros2cli.graph.discovery import node_names
+from teo_ros2cli.graph.discovery import look_again, node_names
 
-
-def add_list_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of `list`."""
-    add_node_listing_arguments(parser)
+add_list_arguments = add_node_listing_arguments
 
 
 def run_list(options: argparse.Namespace) -> int:
@@ -61,8 +58,6 @@ def run_info(options: argparse.Namespace) -> int:
 
     full = full_name(options.node_name)
     namespace, _, name = full.rpartition("/")
-    from teo_ros2cli.graph.discovery import look_again
-
     with known_graph(options, names=True) as node:
         count = look_again(lambda: node_names(node).count(full))
         if not count:

@@ -13,6 +13,9 @@ from contextlib import contextmanager
 from typing import Any
 
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.graph.cli_node import cli_node
+from teo_ros2cli.graph.discovery import look_again, settle
+from teo_ros2cli.qos import POLICIES
 
 # As rclpy.qos names them; not taken from there, because loading rclpy takes longer than most commands.
 QOS_PRESETS = (
@@ -26,11 +29,9 @@ QOS_PRESETS = (
     "action_status_default",
     "best_available",
 )
+# Without the value that rclpy has no word for, as it is deprecated.
 QOS_POLICIES = {
-    "history": ("system_default", "keep_last", "keep_all", "unknown"),
-    "reliability": ("system_default", "reliable", "best_effort", "unknown", "best_available"),
-    "durability": ("system_default", "transient_local", "volatile", "unknown", "best_available"),
-    "liveliness": ("system_default", "automatic", "manual_by_topic", "unknown", "best_available"),
+    name: tuple(value for value in values if value != "manual_by_node") for name, values in POLICIES.items()
 }
 
 
@@ -144,48 +145,27 @@ def add_graph_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--no-daemon", action="store_true", help="Accepted; there is no daemon")
 
 
-class _QosAction(argparse.Action):
-    """Stores an option and that some QoS option was given."""
-
-    def __call__(
-        self,
-        _parser: argparse.ArgumentParser,
-        namespace: argparse.Namespace,
-        values: Any,
-        _option: str | None = None,
-    ) -> None:
-        setattr(namespace, self.dest, values)
-        namespace.qos_given = True
-
-
 def add_qos_arguments(parser: argparse.ArgumentParser, doing: str, preset: str) -> None:
-    """Add the `--qos-*` options.
+    """Add the `--qos-*` options, which `teo_ros2cli.qos.from_options` reads.
 
     Args:
         parser: The parser of a command.
         doing: `publish` or `subscribe`.
         preset: The preset that holds unless another is chosen.
     """
-    parser.set_defaults(qos_given=False)
+    parser.set_defaults(default_preset=preset)
     where = f"setting to {doing} with (overrides the value of --qos-profile)"
     parser.add_argument(
         "--qos-profile",
         choices=QOS_PRESETS,
-        default=preset,
-        action=_QosAction,
         help=f"Quality of service preset profile to {doing} with (default: {preset})",
     )
-    parser.add_argument(
-        "--qos-depth", metavar="N", type=non_negative_int, action=_QosAction, help=f"Queue size {where}"
-    )
+    parser.add_argument("--qos-depth", metavar="N", type=non_negative_int, help=f"Queue size {where}")
     for name, choices in QOS_POLICIES.items():
-        parser.add_argument(
-            f"--qos-{name}", choices=choices, action=_QosAction, help=f"Quality of service {name} {where}"
-        )
+        parser.add_argument(f"--qos-{name}", choices=choices, help=f"Quality of service {name} {where}")
     parser.add_argument(
         "--qos-liveliness-lease-duration-seconds",
         type=non_negative_float,
-        action=_QosAction,
         help=f"Quality of service liveliness lease duration {where}",
     )
 
@@ -194,17 +174,15 @@ NamesAndTypes = Sequence[tuple[str, Sequence[str]]]
 
 
 @contextmanager
-def known_graph(options: argparse.Namespace, *, names: bool = False) -> Iterator[Any]:
+def known_graph(options: argparse.Namespace, *, names: bool = False, rosout: bool = True) -> Iterator[Any]:
     """Yield a node that knows the graph, made as the options of `add_graph_arguments` say.
 
     Args:
         options: Of the command.
         names: Wait for the names of the nodes as well.
+        rosout: Let the node publish its log.
     """
-    from teo_ros2cli.graph.cli_node import cli_node
-    from teo_ros2cli.graph.discovery import settle
-
-    with cli_node(use_sim_time=options.use_sim_time) as node:
+    with cli_node(use_sim_time=options.use_sim_time, rosout=rosout) as node:
         settle(node, options.spin_time, names=names)
         yield node
 
@@ -274,8 +252,6 @@ def print_names(options: argparse.Namespace, found: NamesAndTypes) -> int:
 
 def print_types(look: Callable[[], NamesAndTypes], name: str) -> int:
     """Print the types of a name, a line each; return the exit status: 1 if there is no such name."""
-    from teo_ros2cli.graph.discovery import look_again
-
     types = look_again(lambda: dict(look()).get(full_name(name), ()))
     for kind in types:
         print(kind)

@@ -14,8 +14,10 @@ from typing import Any
 from teo_ros2cli.bags.selection import is_hidden
 from teo_ros2cli.cli.options import add_graph_arguments, full_name, known_graph, pattern, positive_float
 from teo_ros2cli.errors import Ros2CliError
-from teo_ros2cli.graph.discovery import node_names
+from teo_ros2cli.graph.cli_node import call
+from teo_ros2cli.graph.discovery import look_again, node_names
 from teo_ros2cli.messages.parameters import TYPES, WILDCARD, descriptor_text, plain_value, read_parameter_file
+from teo_ros2cli.messages.tree import dump
 
 # Time that a node gets to answer unless another is given [s].
 _TIMEOUT = 5.0
@@ -23,7 +25,7 @@ _TIMEOUT = 5.0
 _SETTING_TIMEOUT = 60.0
 
 
-def _add_common(parser: argparse.ArgumentParser) -> None:
+def _add_node_arguments(parser: argparse.ArgumentParser, *, or_all: bool = False) -> None:
     add_graph_arguments(parser)
     parser.add_argument("--include-hidden-nodes", action="store_true", help="Consider hidden nodes as well")
     parser.add_argument(
@@ -33,12 +35,20 @@ def _add_common(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         help=f"Wait for N seconds until service becomes available (default: {_TIMEOUT:g})",
     )
+    if or_all:
+        parser.add_argument("node_name", nargs="?", help="Name of the ROS node (default: all)")
+    else:
+        parser.add_argument("node_name", help="Name of the ROS node")
+
+
+def _add_parameter_arguments(parser: argparse.ArgumentParser) -> None:
+    _add_node_arguments(parser)
+    parser.add_argument("parameter_name", help="Name of the parameter")
 
 
 def add_list_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `list`."""
-    _add_common(parser)
-    parser.add_argument("node_name", nargs="?", help="Name of the ROS node (default: all)")
+    _add_node_arguments(parser, or_all=True)
     parser.add_argument(
         "--param-type", action="store_true", help="Print parameter types with parameter names"
     )
@@ -83,9 +93,7 @@ def run_list(options: argparse.Namespace) -> int:
 
 def add_get_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `get`."""
-    _add_common(parser)
-    parser.add_argument("node_name", help="Name of the ROS node")
-    parser.add_argument("parameter_name", help="Name of the parameter")
+    _add_parameter_arguments(parser)
     parser.add_argument("--hide-type", action="store_true", help="Hide the type information")
 
 
@@ -106,9 +114,7 @@ def run_get(options: argparse.Namespace) -> int:
 
 def add_set_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `set`."""
-    _add_common(parser)
-    parser.add_argument("node_name", help="Name of the ROS node")
-    parser.add_argument("parameter_name", help="Name of the parameter")
+    _add_parameter_arguments(parser)
     parser.add_argument("value", help="Value of the parameter")
 
 
@@ -134,11 +140,7 @@ def run_set(options: argparse.Namespace) -> int:
     return 0
 
 
-def add_delete_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of `delete`."""
-    _add_common(parser)
-    parser.add_argument("node_name", help="Name of the ROS node")
-    parser.add_argument("parameter_name", help="Name of the parameter")
+add_delete_arguments = _add_parameter_arguments
 
 
 def run_delete(options: argparse.Namespace) -> int:
@@ -159,8 +161,7 @@ def run_delete(options: argparse.Namespace) -> int:
 
 def add_load_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `load`."""
-    _add_common(parser)
-    parser.add_argument("node_name", help="Name of the ROS node")
+    _add_node_arguments(parser)
     parser.add_argument("parameter_file", type=Path, help="Parameter file")
     parser.add_argument(
         "--no-use-wildcard",
@@ -195,8 +196,7 @@ def run_load(options: argparse.Namespace) -> int:
 
 def add_describe_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `describe`."""
-    _add_common(parser)
-    parser.add_argument("node_name", help="Name of the ROS node")
+    _add_node_arguments(parser)
     parser.add_argument("parameter_names", nargs="+", help="Names of the parameters")
 
 
@@ -209,16 +209,11 @@ def run_describe(options: argparse.Namespace) -> int:
     return 0
 
 
-def add_dump_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of `dump`."""
-    _add_common(parser)
-    parser.add_argument("node_name", help="Name of the ROS node")
+add_dump_arguments = _add_node_arguments
 
 
 def run_dump(options: argparse.Namespace) -> int:
     """Print a node's parameters as a parameter file."""
-    from teo_ros2cli.messages.tree import dump
-
     node = full_name(options.node_name)
     with _parameters(options) as parameters:
         names = parameters.names(node)
@@ -286,17 +281,8 @@ class _Parameters:
         """Call `<node>/list_parameters`, of rcl_interfaces/srv/ListParameters, and the like."""
         from rcl_interfaces import srv
 
-        from teo_ros2cli.graph.cli_node import call
-        from teo_ros2cli.graph.discovery import look_again
-
         if not look_again(lambda: node in node_names(self._node)):
             raise Ros2CliError("node_unknown", "Node not found")
         cls = getattr(srv, service.title().replace("_", ""))
-        return call(
-            self._node,
-            cls,
-            f"{node}/{service}",
-            cls.Request(**request),
-            timeout=self._timeout,
-            answer_timeout=answer_timeout,
-        )
+        name, timeout = f"{node}/{service}", self._timeout
+        return call(self._node, cls, name, timeout=timeout, answer_timeout=answer_timeout, **request)

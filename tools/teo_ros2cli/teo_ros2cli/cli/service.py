@@ -25,7 +25,12 @@ from teo_ros2cli.cli.options import (
 )
 from teo_ros2cli.cli.topic.echo import Printer, add_printing_arguments
 from teo_ros2cli.errors import Ros2CliError
-from teo_ros2cli.interfaces import InterfaceName
+from teo_ros2cli.graph.cli_node import cli_node, wait_for
+from teo_ros2cli.graph.discovery import look_again
+from teo_ros2cli.graph.subscribing import AdaptiveSubscription, listen
+from teo_ros2cli.interfaces import InterfaceName, interface_class
+from teo_ros2cli.messages.fill import fill_from_text
+from teo_ros2cli.qos import asked_record
 
 
 def add_list_arguments(parser: argparse.ArgumentParser) -> None:
@@ -79,8 +84,6 @@ def run_info(options: argparse.Namespace) -> int:
     Raises:
         Ros2CliError: `service_unknown`.
     """
-    from teo_ros2cli.graph.discovery import look_again
-
     service = full_name(options.service_name)
     with known_graph(options) as node:
         types = look_again(lambda: _types(node, service))
@@ -113,14 +116,9 @@ def run_call(options: argparse.Namespace) -> int:
     Raises:
         Ros2CliError: `invalid_type`, `invalid_yaml`, `invalid_field`.
     """
-    from teo_ros2cli.interfaces import interface_class
-    from teo_ros2cli.messages.fill import fill_from_text
-
     cls = interface_class(options.service_type, "srv")
     request = cls.Request()
     stamps = fill_from_text(request, given_values(options, "values"), automatic_stamps=True)
-
-    from teo_ros2cli.graph.cli_node import cli_node, wait_for
 
     with cli_node() as node:
         client = node.create_client(cls, options.service_name)
@@ -153,16 +151,9 @@ def run_echo(options: argparse.Namespace) -> int:
     Raises:
         Ros2CliError: `service_unknown`, `invalid_type`.
     """
-    from teo_ros2cli.graph.cli_node import cli_node
-    from teo_ros2cli.graph.discovery import look_again, settle
-    from teo_ros2cli.graph.subscribing import AdaptiveSubscription, listen
-    from teo_ros2cli.interfaces import interface_class
-    from teo_ros2cli.qos import from_options, to_record
-
     service = full_name(options.service_name)
     events = f"{service}/_service_event"
-    with cli_node(use_sim_time=options.use_sim_time) as node:
-        settle(node, options.spin_time)
+    with known_graph(options) as node:
         types = [options.service_type] if options.service_type else look_again(lambda: _types(node, service))
         if not types:
             raise Ros2CliError("service_unknown", f"Unknown service '{options.service_name}'")
@@ -173,10 +164,10 @@ def run_echo(options: argparse.Namespace) -> int:
             events,
             interface_class(types[0], "srv").Event,
             _EventPrinter(options),
-            fixed=to_record(from_options(options)) if options.qos_given else None,
+            fixed=asked_record(options),
             warn=lambda sentence: print(sentence, file=sys.stderr),
         )
-        listen(node, [subscription], until=lambda: False, deadline=None)
+        listen(node, [subscription])
     return 0
 
 

@@ -103,6 +103,19 @@ def _prompt_discovery() -> bool:
     return False
 
 
+@contextmanager
+def executor_of(node: Any) -> Iterator[Any]:
+    """Yield an rclpy.executors.SingleThreadedExecutor that spins a node; it lets go of it after the block."""
+    from rclpy.executors import SingleThreadedExecutor
+
+    executor = SingleThreadedExecutor(context=node.context)
+    executor.add_node(node)
+    try:
+        yield executor
+    finally:
+        executor.remove_node(node)
+
+
 def wait_for(node: Any, future: Any, timeout: float | None = None) -> Any:
     """Spin a node until a future is done, and return its result.
 
@@ -114,19 +127,13 @@ def wait_for(node: Any, future: Any, timeout: float | None = None) -> Any:
     Raises:
         Ros2CliError: `no_answer`, the time is over.
     """
-    from rclpy.executors import SingleThreadedExecutor
-
     deadline = None if timeout is None else time.monotonic() + timeout
-    executor = SingleThreadedExecutor(context=node.context)
-    executor.add_node(node)
-    try:
+    with executor_of(node) as executor:
         while not future.done():
             if deadline is not None and time.monotonic() >= deadline:
                 raise Ros2CliError("no_answer", f"No answer within {timeout} s")
             # In steps: while the middleware waits, Python does not see a signal.
             executor.spin_once(timeout_sec=_STEP)
-    finally:
-        executor.remove_node(node)
     return future.result()
 
 
@@ -134,10 +141,10 @@ def call(
     node: Any,
     service_class: Any,
     name: str,
-    request: Any,
     *,
     timeout: float,
     answer_timeout: float | None = None,
+    **request: Any,
 ) -> Any:
     """Call a service that is expected to be there, and return its response.
 
@@ -145,9 +152,9 @@ def call(
         node: Who calls.
         service_class: Type of the service.
         name: Of the service.
-        request: What is asked.
         timeout: How long the service may take to appear [s].
         answer_timeout: How long it may then take to answer [s]; as long without.
+        **request: Fields of the request.
 
     Raises:
         Ros2CliError: `service_unavailable`, it did not appear in time; `no_answer`.
@@ -156,6 +163,6 @@ def call(
     try:
         if not client.wait_for_service(timeout_sec=timeout):
             raise Ros2CliError("service_unavailable", f"Service '{name}' is not available")
-        return wait_for(node, client.call_async(request), answer_timeout or timeout)
+        return wait_for(node, client.call_async(service_class.Request(**request)), answer_timeout or timeout)
     finally:
         node.destroy_client(client)

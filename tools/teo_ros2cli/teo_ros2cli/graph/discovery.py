@@ -146,7 +146,7 @@ def _local_participants(domain: int) -> int:
     """Return the number of participants of a domain on this machine; 0 where that cannot be told."""
     try:
         return count_participants(_UDP_TABLE.read_text(encoding="ascii"), domain)
-    except (OSError, UnicodeDecodeError):
+    except OSError:
         return 0
 
 
@@ -154,14 +154,8 @@ def count_participants(udp_table: str, domain: int) -> int:
     """Count the discovery ports of a domain in a text of the form of `/proc/net/udp`."""
     first = _PORT_BASE + _DOMAIN_GAIN * domain + _UNICAST_OFFSET
     last = _PORT_BASE + _DOMAIN_GAIN * (domain + 1)
-    ports = set()
-    for line in udp_table.splitlines()[1:]:
-        fields = line.split()
-        if len(fields) > 1 and ":" in fields[1]:
-            try:
-                ports.add(int(fields[1].rsplit(":", 1)[1], 16))
-            except ValueError:
-                continue
+    rows = udp_table.splitlines()[1:]
+    ports = {int(row.split()[1].rpartition(":")[2], 16) for row in rows}
     return sum(first <= port < last and (port - first) % _PARTICIPANT_GAIN == 0 for port in ports)
 
 

@@ -42,19 +42,19 @@ class PlayerSettings(NamedTuple):
     """
 
     selection: TopicSelection
-    remap: Mapping[str, str] = {}
-    rate: float = 1.0
-    start_offset: float = 0.0
-    duration: float | None = None
-    until: int | None = None
-    delay: float = 0.0
-    loop: bool = False
-    clock: float = 0.0
-    clock_before: Callable[[str], bool] = lambda _topic: False
-    start_paused: bool = False
-    overrides: Mapping[str, QosRecord] = {}
-    read_ahead: int = 1000
-    wait_acknowledged: float = 0.0
+    remap: Mapping[str, str]
+    rate: float
+    start_offset: float
+    duration: float | None
+    until: int | None
+    delay: float
+    loop: bool
+    clock: float
+    clock_before: Callable[[str], bool]
+    start_paused: bool
+    overrides: Mapping[str, QosRecord]
+    read_ahead: int
+    wait_acknowledged: float
 
 
 class Player:
@@ -75,7 +75,7 @@ class Player:
         settings: PlayerSettings,
         *,
         stopped: Callable[[], bool],
-        command: Callable[[Player], None] = lambda _player: None,
+        command: Callable[[Player], None],
     ) -> None:
         self._node = node
         self._bag = bag
@@ -206,14 +206,9 @@ class Player:
                 f"not cdr."
             )
             return
-        override = self._settings.overrides.get(topic.name)
-        if override is not None:
-            profile = override
-        else:
-            adapted = offer_for(topic.name, topic.offered_qos)
-            for warning in adapted.warnings:
-                self._log.warning(warning)
-            profile = adapted.profile
+        profile = self._settings.overrides.get(topic.name)
+        if profile is None:
+            profile = offer_for(topic.name, topic.offered_qos, self._log.warning)
         try:
             cls = message_class(topic.type)
             self._publishers[topic.name] = self._node.create_publisher(cls, name, from_record(profile))

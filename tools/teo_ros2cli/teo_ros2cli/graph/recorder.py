@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from teo_ros2cli.bags.metadata import BagMetadata, TopicRecord
 from teo_ros2cli.bags.selection import TopicSelection
-from teo_ros2cli.bags.writer import Arrival, BackgroundWriter, BagWriter
+from teo_ros2cli.bags.writer import BackgroundWriter, BagWriter
 from teo_ros2cli.errors import Ros2CliError
 from teo_ros2cli.graph.subscribing import AdaptiveSubscription
 from teo_ros2cli.interfaces import Schema, installed_type_hash, message_class, schema_of
@@ -33,14 +33,14 @@ class RecorderSettings(NamedTuple):
     """
 
     selection: TopicSelection
-    polling_interval: float = 0.1
-    discovery: bool = True
-    include_unpublished: bool = False
-    ignore_leaf: bool = False
-    overrides: Mapping[str, QosRecord] = {}
-    cache_size: int = 100 * 1024 * 1024
-    start_paused: bool = False
-    use_sim_time: bool = False
+    polling_interval: float
+    discovery: bool
+    include_unpublished: bool
+    ignore_leaf: bool
+    overrides: Mapping[str, QosRecord]
+    cache_size: int
+    start_paused: bool
+    use_sim_time: bool
 
 
 class Recorder:
@@ -106,8 +106,7 @@ class Recorder:
             Ros2CliError: `bag_unwritable`.
         """
         for subscription in self._subscriptions.values():
-            subscription.drain()
-            subscription.destroy()
+            subscription.close()
         if self._lost:
             counts = "".join(f"\n\t{name}: {count}" for name, count in sorted(self._lost.items()))
             self._log.warning(f"Messages lost per topic: {counts}\nTotal lost: {sum(self._lost.values())}")
@@ -185,7 +184,7 @@ class Recorder:
                 return  # the simulated clock does not run yet
         sequence = info.get("publication_sequence_number") or 0
         self._note_offers(name)
-        if not self._bag.write(Arrival(name, received, info["source_timestamp"], data, sequence)):
+        if not self._bag.write(name, received, info["source_timestamp"], data, sequence):
             self._note_lost(name, 1)
 
     def _note_lost(self, name: str, count: int) -> None:

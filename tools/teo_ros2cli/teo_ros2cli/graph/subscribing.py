@@ -5,11 +5,12 @@
 from __future__ import annotations
 
 import time
-from collections import deque
+from collections import OrderedDict
 from collections.abc import Callable, Collection
 from dataclasses import replace
 from typing import Any
 
+from teo_ros2cli.graph.cli_node import executor_of
 from teo_ros2cli.qos import QosRecord, from_record, request_for, serves, to_record
 
 # Messages that may wait in the middleware while Python is busy elsewhere: 10 s of a topic at 100 Hz. The
@@ -73,7 +74,7 @@ class AdaptiveSubscription:
         # Without publishers there is nothing to fit yet; a latched subscription may bring a message again.
         self._blind = not self.offers
         self._repetitions = _Repetitions() if self._blind else None
-        self.request = fixed if fixed is not None else self._fitting(self.offers)
+        self.request = fixed or request_for(topic, self.offers, warn)
         self._subscription = self._subscribe()
         # Replaced ones, each with the moment of the steady clock at which it ends [s].
         self._retiring: list[tuple[Any, float]] = []
@@ -99,27 +100,16 @@ class AdaptiveSubscription:
         latched = self._blind and all(offer.durability == "transient_local" for offer in offers)
         self._blind = False
         if unserved or latched:
-            self._replace(self._fitting(offers))
+            self._replace(request_for(self._topic, offers, self._warn))
 
-    def drain(self) -> None:
-        """Pass on what still waits in the middleware."""
+    def close(self) -> None:
+        """Pass on what still waits in the middleware, and end the subscription."""
         for subscription in (*(old for old, _ in self._retiring), self._subscription):
-            self._drain(subscription)
-
-    def destroy(self) -> None:
-        """End the subscription."""
-        for subscription in (*(old for old, _ in self._retiring), self._subscription):
-            self._node.destroy_subscription(subscription)
+            self._end(subscription)
 
     def _offers(self) -> tuple[QosRecord, ...]:
         publishers = self._node.get_publishers_info_by_topic(self._topic)
         return tuple(to_record(info.qos_profile) for info in publishers)
-
-    def _fitting(self, offers: tuple[QosRecord, ...]) -> QosRecord:
-        adapted = request_for(self._topic, offers)
-        for warning in adapted.warnings:
-            self._warn(warning)
-        return adapted.profile
 
     def _replace(self, request: QosRecord) -> None:
         # For a while both subscriptions receive: what comes twice is known from here on.
@@ -139,16 +129,17 @@ class AdaptiveSubscription:
         profile = from_record(replace(self.request, depth=max(self.request.depth, _QUEUE_DEPTH)))
         lost = self._lost
         told = None if lost is None else lambda status: lost(status.total_count_change)
-        for callback in (told, None):
+
+        def subscribe(callback: Callable[[Any], object] | None) -> Any:
             events = SubscriptionEventCallbacks(message_lost=callback, use_default_callbacks=False)
-            try:
-                return self._node.create_subscription(
-                    self._class, self._topic, self._receive, profile, raw=self._raw, event_callbacks=events
-                )
-            except UnsupportedEventTypeError:
-                if callback is None:
-                    raise
-        raise AssertionError("unreachable")
+            return self._node.create_subscription(
+                self._class, self._topic, self._receive, profile, raw=self._raw, event_callbacks=events
+            )
+
+        try:
+            return subscribe(told)
+        except UnsupportedEventTypeError:
+            return subscribe(None)
 
     def _receive(self, message: Any, info: dict[str, Any]) -> None:
         if not self.offers:
@@ -169,17 +160,15 @@ class _Repetitions:
     """Knows a message that comes a second time, by its time of publishing and its number."""
 
     def __init__(self) -> None:
-        self._order: deque[tuple[int, int]] = deque()
-        self._seen: set[tuple[int, int]] = set()
+        self._seen: OrderedDict[tuple[int, int], None] = OrderedDict()
 
     def is_new(self, info: dict[str, Any]) -> bool:
         key = (info["source_timestamp"], info.get("publication_sequence_number") or 0)
         if key in self._seen:
             return False
-        self._seen.add(key)
-        self._order.append(key)
-        if len(self._order) > _REMEMBERED:
-            self._seen.discard(self._order.popleft())
+        self._seen[key] = None
+        if len(self._seen) > _REMEMBERED:
+            self._seen.popitem(last=False)
         return True
 
 
@@ -207,7 +196,7 @@ def listen(
         deadline: Moment of the steady clock at which to end [s], None for never.
         every: A period [s] and what to do in it.
     """
-    from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+    from rclpy.executors import ExternalShutdownException
 
     if every is not None:
         # Of this machine's time: a simulated clock may stand still.
@@ -215,10 +204,8 @@ def listen(
         from rclpy.clock_type import ClockType
 
         node.create_timer(*every, clock=Clock(clock_type=ClockType.STEADY_TIME))
-    executor = SingleThreadedExecutor(context=node.context)
-    executor.add_node(node)
     fitted = 0.0
-    try:
+    with executor_of(node) as executor:
         while not until():
             now = time.monotonic()
             if deadline is not None and now >= deadline:
@@ -230,5 +217,3 @@ def listen(
             executor.spin_once(timeout_sec=_FITTING if deadline is None else min(_FITTING, deadline - now))
             if not node.context.ok():
                 raise ExternalShutdownException  # SIGTERM
-    finally:
-        executor.remove_node(node)

@@ -29,9 +29,8 @@ from teo_ros2cli.errors import Ros2CliError
 from teo_ros2cli.interfaces import interface_class, interface_name_of
 from teo_ros2cli.messages.tree import Scalar, parse, plain
 
-# A builtin_interfaces/msg/Time.
-Stamp = Any
-StampSetter = Callable[[Stamp], None]
+# Takes a builtin_interfaces/msg/Time.
+StampSetter = Callable[[Any], None]
 
 _INTEGER_RANGES = {
     **{f"int{bits}": (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1) for bits in (8, 16, 32, 64)},
@@ -53,38 +52,29 @@ _TYPE_CODES = {
 }
 
 
-def fill_message(message: Any, values: Any, *, automatic_stamps: bool = False) -> list[StampSetter]:
-    """Set the fields of a message that a tree names; the others keep their values.
+def fill_from_text(message: Any, text: str, *, automatic_stamps: bool = False) -> list[StampSetter]:
+    """Set the fields of a message that a mapping in YAML names; the others keep their values.
 
     Args:
         message: The message to change.
-        values: A dict of field names, as `yaml_text.parse` returns it, or of plain values.
+        text: The mapping.
         automatic_stamps: Let `header: auto` and `stamp: now` stand for the time of publishing.
 
     Returns:
         One setter for each place that is to get the time of publishing, each time the message is published.
 
     Raises:
-        Ros2CliError: `invalid_field`, naming the field, what it takes and what came.
-    """
-    setters: list[StampSetter] = []
-    _Filler(automatic_stamps, setters).fill(message, values, "")
-    return setters
-
-
-def fill_from_text(message: Any, text: str, *, automatic_stamps: bool = False) -> list[StampSetter]:
-    """Set the fields of a message as a mapping in YAML says; the rest is as for `fill_message`.
-
-    Raises:
-        Ros2CliError: `invalid_yaml`, `invalid_field`.
+        Ros2CliError: `invalid_yaml`; `invalid_field`, naming the field, what it takes and what came.
     """
     values = parse(text)
     if not isinstance(values, dict):
         raise Ros2CliError("invalid_yaml", "The passed value needs to be a dictionary in YAML format")
+    setters: list[StampSetter] = []
     try:
-        return fill_message(message, values, automatic_stamps=automatic_stamps)
+        _Filler(automatic_stamps, setters).fill(message, values, "")
     except Ros2CliError as error:
         raise Ros2CliError(error.code, f"Failed to populate field: {error}") from error
+    return setters
 
 
 class _Filler:
@@ -141,9 +131,7 @@ class _Filler:
         octets = isinstance(kind.value_type, BasicType) and kind.value_type.typename in ("uint8", "octet")
         if isinstance(value, Scalar) and isinstance(value.value, bytes) and octets:
             value = list(value.value)  # !!binary
-        if isinstance(value, bytes | bytearray | array.array) or type(value).__module__ == "numpy":
-            value = list(value)
-        if not isinstance(value, list | tuple):
+        if not isinstance(value, list):
             raise _fault(path, f"a sequence of {_word(kind.value_type)}", value)
         if isinstance(kind, Array) and len(value) != kind.size:
             raise _fault(path, f"exactly {kind.size} values", value)
@@ -250,5 +238,5 @@ def _word(kind: Any) -> str:
 def _fault(path: str, expected: str, value: Any) -> Ros2CliError:
     text = repr(value.text if isinstance(value, Scalar) else plain(value))
     text = text if len(text) <= 60 else f"{text[:57]}..."
-    size = f" of {len(value)} values" if isinstance(value, list | tuple) else ""
+    size = f" of {len(value)} values" if isinstance(value, list) else ""
     return Ros2CliError("invalid_field", f"field '{path}' takes {expected}, got {text}{size}")

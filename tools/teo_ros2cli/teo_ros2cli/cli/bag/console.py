@@ -10,7 +10,6 @@ import signal
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from types import FrameType
 
 from teo_ros2cli.errors import Ros2CliError
 
@@ -29,16 +28,12 @@ def bag_errors() -> Iterator[None]:
         raise Ros2CliError(error.code, f"[ERROR] [ros2bag]: {error}") from error
 
 
-class StopSignals:
-    """Notes from its making on that SIGINT or SIGTERM came, instead of letting it end the process."""
-
-    def __init__(self) -> None:
-        self.came = False
-        for number in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(number, self._note)
-
-    def _note(self, _number: int, _frame: FrameType | None) -> None:
-        self.came = True
+def stop_signals() -> Callable[[], bool]:
+    """Keep SIGINT and SIGTERM from ending the process; return a function that tells whether one has come."""
+    came: list[int] = []
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda number, _frame: came.append(number))
+    return lambda: bool(came)
 
 
 SPACE = " "

@@ -9,18 +9,16 @@ import math
 import re
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from teo_ros2cli.bags.bag import Bag
 from teo_ros2cli.bags.foreign_bag import open_any_bag
 from teo_ros2cli.bags.selection import TopicSelection
-from teo_ros2cli.cli.bag.console import DOWN, RIGHT, SPACE, UP, StopSignals, bag_errors, keys, warn
+from teo_ros2cli.cli.bag.console import DOWN, RIGHT, SPACE, UP, bag_errors, keys, stop_signals, warn
 from teo_ros2cli.cli.options import full_name, non_negative_float, pattern, positive_float, positive_int
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.graph.cli_node import cli_node
+from teo_ros2cli.graph.player import Player, PlayerSettings
 from teo_ros2cli.qos import read_overrides
-
-if TYPE_CHECKING:
-    from teo_ros2cli.graph.player import Player
 
 # Rate of `/clock` if none is given [1/s].
 _DEFAULT_CLOCK = 40.0
@@ -142,7 +140,7 @@ def run(options: argparse.Namespace) -> int:
     Raises:
         Ros2CliError: `invalid_remap`, `invalid_regex`, `invalid_overrides`, or as of `open_any_bag`.
     """
-    stop = StopSignals()
+    stopped = stop_signals()
     selection = _selection(options)
     remap = dict(map(_remapping, options.remap))
     overrides = read_overrides(options.qos_profile_overrides_path)
@@ -150,9 +148,6 @@ def run(options: argparse.Namespace) -> int:
     for problem in bag.problems:
         warn(problem)
     _check_selected(options, bag)
-
-    from teo_ros2cli.graph.cli_node import cli_node
-    from teo_ros2cli.graph.player import Player, PlayerSettings
 
     until = options.playback_until_nsec
     if options.playback_until_sec is not None and options.playback_until_sec >= 0:
@@ -179,7 +174,7 @@ def run(options: argparse.Namespace) -> int:
     ):
         log = node.get_logger()
         log.info(f"Set rate to {settings.rate:g}")
-        player = Player(node, bag, settings, stopped=lambda: stop.came, command=_key_action(pressed))
+        player = Player(node, bag, settings, stopped=stopped, command=_key_action(pressed))
         if pressed is not None:
             for name, effect, _ in _KEYS.values():
                 log.info(f"Press {name} for {effect}")

@@ -10,18 +10,18 @@ import os
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from teo_ros2cli.bags.mcap_file import DEFAULT_PRESET, PRESETS
 from teo_ros2cli.bags.selection import TopicSelection
 from teo_ros2cli.bags.writer import BagWriter
-from teo_ros2cli.cli.bag.console import StopSignals, bag_errors, warn
+from teo_ros2cli.cli.bag.console import SPACE, bag_errors, keys, stop_signals, warn
 from teo_ros2cli.cli.options import full_name, key_value, non_negative_int, pattern, positive_int
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.graph.cli_node import cli_node, executor_of
+from teo_ros2cli.graph.discovery import settle
+from teo_ros2cli.graph.recorder import Recorder, RecorderSettings
 from teo_ros2cli.qos import read_overrides
-
-if TYPE_CHECKING:
-    from teo_ros2cli.graph.recorder import Recorder
 
 # Longest time in which a signal or a key is not looked at [s].
 _STEP = 0.05
@@ -185,7 +185,7 @@ def run(options: argparse.Namespace) -> int:
         Ros2CliError: `nothing_selected`, `invalid_regex`, `invalid_overrides`, `output_exists`,
             `output_unwritable`, or `bag_unwritable`.
     """
-    stop = StopSignals()
+    stopped = stop_signals()
     if options.topics_positional:
         warn('Positional "topics" argument deprecated. Please use optional "--topics" argument instead.')
     selection = _selection(options)
@@ -195,11 +195,6 @@ def run(options: argparse.Namespace) -> int:
         raise Ros2CliError("output_exists", f"Output folder '{directory}' already exists.")
 
     from rclpy.logging import LoggingSeverity
-
-    from teo_ros2cli.cli.bag.console import SPACE, keys
-    from teo_ros2cli.graph.cli_node import cli_node
-    from teo_ros2cli.graph.discovery import settle
-    from teo_ros2cli.graph.recorder import Recorder, RecorderSettings
 
     settings = RecorderSettings(
         selection=selection,
@@ -234,7 +229,7 @@ def run(options: argparse.Namespace) -> int:
             if not settings.discovery:
                 settle(node)
             log.info("Recording..." if not settings.start_paused else "Waiting for recording: paused.")
-            _spin(node, recorder, stop, lambda: pressed is not None and pressed() == SPACE)
+            _spin(node, recorder, stopped, pressed)
             log.info("Writing remaining messages from cache to the bag. It may take a while")
         finally:
             recorder.finish()
@@ -242,19 +237,15 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _spin(node: Any, recorder: Recorder, stop: StopSignals, toggled: Callable[[], bool]) -> None:
-    from rclpy.executors import SingleThreadedExecutor
-
-    executor = SingleThreadedExecutor(context=node.context)
-    executor.add_node(node)
-    try:
-        while not stop.came:
+def _spin(
+    node: Any, recorder: Recorder, stopped: Callable[[], bool], pressed: Callable[[], str] | None
+) -> None:
+    with executor_of(node) as executor:
+        while not stopped():
             recorder.look(time.monotonic())
-            if toggled():
+            if pressed is not None and pressed() == SPACE:
                 recorder.toggle_paused()
             executor.spin_once(timeout_sec=_STEP)
-    finally:
-        executor.remove_node(node)
 
 
 def _selection(options: argparse.Namespace) -> TopicSelection:

@@ -18,7 +18,12 @@ from teo_ros2cli.cli.options import (
     positive_float,
 )
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.graph.cli_node import cli_node
+from teo_ros2cli.graph.discovery import full_topic_name, look_again, only_type, settle
+from teo_ros2cli.graph.subscribing import AdaptiveSubscription, listen
+from teo_ros2cli.interfaces import message_class
 from teo_ros2cli.messages.tree import Abridgement, dump, message_csv, message_tree, select
+from teo_ros2cli.qos import asked_record
 
 _DEFAULT_LENGTH = 128
 
@@ -89,12 +94,6 @@ def run(options: argparse.Namespace) -> int:
         Ros2CliError: `invalid_type`, `invalid_field`, `invalid_topic`, `invalid_filter`, `type_unknown`,
             `ambiguous_type`.
     """
-    from teo_ros2cli.graph.cli_node import cli_node
-    from teo_ros2cli.graph.discovery import full_topic_name, look_again, only_type, settle
-    from teo_ros2cli.graph.subscribing import AdaptiveSubscription, listen
-    from teo_ros2cli.interfaces import message_class
-    from teo_ros2cli.qos import from_options, to_record
-
     given = message_class(options.message_type) if options.message_type else None
     show = Printer(options)
     deadline = time.monotonic() + options.timeout if options.timeout is not None else None
@@ -112,7 +111,7 @@ def run(options: argparse.Namespace) -> int:
             topic,
             given,
             show,
-            fixed=to_record(from_options(options)) if options.qos_given else None,
+            fixed=asked_record(options),
             raw=options.raw,
             warn=lambda sentence: print(sentence, file=sys.stderr),
             lost=None if options.no_lost_messages else show.tell_lost,

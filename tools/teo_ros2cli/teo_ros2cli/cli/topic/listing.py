@@ -17,6 +17,7 @@ from teo_ros2cli.cli.options import (
     print_types,
 )
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.graph.discovery import full_topic_name, look_again, topic_types
 from teo_ros2cli.interfaces import InterfaceName
 
 _COUNTED = "topics discovered"
@@ -102,12 +103,8 @@ def run_info(options: argparse.Namespace) -> int:
     Raises:
         Ros2CliError: `topic_unknown` or `invalid_topic`.
     """
-    from teo_ros2cli.graph.cli_node import cli_node
-    from teo_ros2cli.graph.discovery import full_topic_name, look_again, settle, topic_types
-
-    with cli_node(use_sim_time=options.use_sim_time, rosout=False) as node:
+    with known_graph(options, names=True, rosout=False) as node:
         topic = full_topic_name(node, options.topic_name)
-        settle(node, options.spin_time, names=True)
         types = look_again(lambda: topic_types(node, topic))
         own = node.get_name()
         publishers = [info for info in node.get_publishers_info_by_topic(topic) if info.node_name != own]

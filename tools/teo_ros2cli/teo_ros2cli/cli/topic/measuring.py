@@ -9,19 +9,22 @@ import functools
 import math
 import time
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any, NamedTuple
 
-from teo_ros2cli.cli.options import add_graph_arguments, positive_int
+from teo_ros2cli.cli.options import add_graph_arguments, known_graph, positive_int
 from teo_ros2cli.cli.topic.echo import message_filter
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.graph.discovery import full_topic_name, wait_for_type
+from teo_ros2cli.graph.subscribing import ANYTHING, AdaptiveSubscription, listen
+from teo_ros2cli.interfaces import message_class
 
 # Interval of printing [s].
 _REPORT = 1.0
 
 
-def add_window_arguments(parser: argparse.ArgumentParser, default: int, what: str = "Window size") -> None:
+def _add_window_arguments(parser: argparse.ArgumentParser, default: int, what: str = "Window size") -> None:
     """Add the options on how the graph is looked at and on how many messages are looked back on."""
     add_graph_arguments(parser)
     parser.add_argument(
@@ -44,17 +47,12 @@ def _measured_topics(
     Raises:
         Ros2CliError: `invalid_topic`, `invalid_type`, `ambiguous_type`.
     """
-    from teo_ros2cli.graph.cli_node import cli_node
-    from teo_ros2cli.graph.discovery import full_topic_name, settle, wait_for_type
-    from teo_ros2cli.interfaces import message_class
-
-    with cli_node(use_sim_time=options.use_sim_time) as node:
+    with known_graph(options) as node:
         names = [full_topic_name(node, topic) for topic in topics]
-        settle(node, options.spin_time)
         yield node, {name: message_class(wait_for_type(node, name, "measure")) for name in names}
 
 
-def measure(
+def _measure(
     node: Any,
     classes: dict[str, Any],
     receive: Callable[[str, Any, dict[str, Any]], None],
@@ -71,8 +69,6 @@ def measure(
         report: Prints what was measured.
         raw: Pass messages on as they came from the wire.
     """
-    from teo_ros2cli.graph.subscribing import ANYTHING, AdaptiveSubscription, listen
-
     subscriptions = [
         AdaptiveSubscription(
             node, topic, cls, functools.partial(receive, topic), fixed=ANYTHING, raw=raw, warn=print
@@ -84,7 +80,7 @@ def measure(
 
 def add_bw_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `bw`."""
-    add_window_arguments(parser, 100, "Maximum window size")
+    _add_window_arguments(parser, 100, "Maximum window size")
     parser.add_argument("topic_name", help="Topic name to monitor for bandwidth utilization")
 
 
@@ -100,13 +96,12 @@ def run_bw(options: argparse.Namespace) -> int:
         arrivals.append((time.monotonic(), len(message)))
 
     def report() -> None:
-        text = _bandwidth_text(list(arrivals), time.monotonic())
-        if text:
+        if text := _bandwidth_text(list(arrivals), time.monotonic()):
             print(text)
 
     with _measured_topics(options, [options.topic_name]) as (node, classes):
         print(f"Subscribed to [{next(iter(classes))}]")
-        measure(node, classes, receive, report, raw=True)
+        _measure(node, classes, receive, report, raw=True)
     return 0
 
 
@@ -132,7 +127,7 @@ def _bytes(count: float) -> str:
 
 def add_delay_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `delay`."""
-    add_window_arguments(parser, 10000)
+    _add_window_arguments(parser, 10000)
     parser.add_argument("topic", help="Topic name to calculate the delay for")
 
 
@@ -144,11 +139,9 @@ def run_delay(options: argparse.Namespace) -> int:
     """
     delays: deque[float] = deque(maxlen=options.window_size)
     with _measured_topics(options, [options.topic]) as (node, classes):
-        for topic, cls in classes.items():
-            if cls.get_fields_and_field_types().get("header") != "std_msgs/Header":
-                raise Ros2CliError(
-                    "no_header", f"Messages of topic '{topic}' have no header, and so no stamp"
-                )
+        ((topic, cls),) = classes.items()
+        if cls.get_fields_and_field_types().get("header") != "std_msgs/Header":
+            raise Ros2CliError("no_header", f"Messages of topic '{topic}' have no header, and so no stamp")
 
         def receive(_topic: str, message: Any, _info: dict[str, Any]) -> None:
             stamp = message.header.stamp
@@ -156,25 +149,16 @@ def run_delay(options: argparse.Namespace) -> int:
 
         def report() -> None:
             if delays:
-                print(_delay_text(list(delays)))
+                found = _Statistics.of(delays)
+                print(f"average delay: {found.mean:.3f}\n{found.spread}")
 
-        measure(node, classes, receive, report)
+        _measure(node, classes, receive, report)
     return 0
 
 
-def _delay_text(delays: list[float]) -> str:
-    """Return the statistics of some delays [s]."""
-    mean = sum(delays) / len(delays)
-    deviation = math.sqrt(sum((delay - mean) ** 2 for delay in delays) / len(delays))
-    return (
-        f"average delay: {mean:.3f}\n\tmin: {min(delays):.3f}s max: {max(delays):.3f}s "
-        f"std dev: {deviation:.5f}s window: {len(delays)}"
-    )
-
-
 def add_hz_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the verb's arguments."""
-    add_window_arguments(parser, 10000)
+    """Add the arguments of `hz`."""
+    _add_window_arguments(parser, 10000)
     parser.add_argument(
         "topic_name", nargs="+", help="Names of the ROS topics to listen to (e.g. '/chatter')"
     )
@@ -201,105 +185,85 @@ def run_hz(options: argparse.Namespace) -> int:
     passes = message_filter(options.filter_expression)
     raw = options.filter_expression is None  # a message that nobody looks into need not be taken apart
     with _measured_topics(options, options.topic_name) as (node, classes):
-        meters = {topic: RateMeter(options.window_size) for topic in classes}
+        arrivals = {topic: _Arrivals(options.window_size) for topic in classes}
         printed: dict[str, int | None] = dict.fromkeys(classes)
 
         def receive(topic: str, message: Any, info: dict[str, Any]) -> None:
             if raw or passes(message):
                 simulated = options.use_sim_time and not options.wall_time
                 time = node.get_clock().now().nanoseconds if simulated else info["received_timestamp"]
-                meters[topic].arrive(time)
+                arrivals[topic].add(time)
 
         def report() -> None:
-            fresh = {topic: meter.rate() for topic, meter in meters.items() if meter.last != printed[topic]}
-            rates = {topic: rate for topic, rate in fresh.items() if rate is not None}
-            printed.update({topic: meters[topic].last for topic in rates})
-            if rates:
-                print(_rate_text(next(iter(rates.values()))) if len(classes) == 1 else _rate_table(rates))
+            found = {
+                topic: _Statistics.of(come.intervals)
+                for topic, come in arrivals.items()
+                if come.intervals and come.last != printed[topic]
+            }
+            printed.update({topic: arrivals[topic].last for topic in found})
+            if found and len(classes) > 1:
+                print(_rate_table(found))
+            elif found:
+                (intervals,) = found.values()
+                print(f"average rate: {intervals.rate:.3f}\n{intervals.spread}")
 
-        measure(node, classes, receive, report, raw=raw)
+        _measure(node, classes, receive, report, raw=raw)
     return 0
 
 
-class Rate(NamedTuple):
-    """Statistics of the intervals in a window.
-
-    Args:
-        hertz: Inverse of the mean interval [1/s].
-        shortest: Shortest interval [s].
-        longest: Longest interval [s].
-        deviation: Standard deviation of the intervals [s].
-        intervals: Number of intervals looked back on.
-    """
-
-    hertz: float
-    shortest: float
-    longest: float
-    deviation: float
-    intervals: int
-
-
-class RateMeter:
-    """Measures the rate of arrivals over the latest ones.
-
-    Args:
-        window: Number of intervals to look back on.
-    """
+class _Arrivals:
+    """The intervals between the latest arrivals [s], `window` of them at most, and the last arrival [ns]."""
 
     def __init__(self, window: int) -> None:
-        self._intervals: deque[int] = deque(maxlen=window)
-        self._last: int | None = None
+        self.intervals: deque[float] = deque(maxlen=window)
+        self.last: int | None = None
 
-    def arrive(self, time: int) -> None:
+    def add(self, time: int) -> None:
         """Note an arrival [ns]; one before the last (a clock was set back) starts the measurement anew."""
-        if self._last is not None:
-            if time < self._last:
-                self._intervals.clear()
+        if self.last is not None:
+            if time < self.last:
+                self.intervals.clear()
             else:
-                self._intervals.append(time - self._last)
-        self._last = time
+                self.intervals.append((time - self.last) * 1e-9)
+        self.last = time
+
+
+class _Statistics(NamedTuple):
+    """Of some times [s]."""
+
+    mean: float
+    least: float
+    most: float
+    deviation: float
+    number: int
+
+    @classmethod
+    def of(cls, times: Collection[float]) -> _Statistics:
+        mean = math.fsum(times) / len(times)
+        variance = math.fsum((time - mean) ** 2 for time in times) / len(times)
+        return cls(mean, min(times), max(times), math.sqrt(variance), len(times))
 
     @property
-    def last(self) -> int | None:
-        """Time of the latest arrival [ns], None before the first."""
-        return self._last
+    def rate(self) -> float:
+        """Of what comes at such intervals [1/s]."""
+        return 1.0 / self.mean if self.mean > 0 else 0.0
 
-    def rate(self) -> Rate | None:
-        """Return the rate, or None before there is an interval."""
-        count = len(self._intervals)
-        if not count:
-            return None
-        mean = sum(self._intervals) / count
-        variance = sum((interval - mean) ** 2 for interval in self._intervals) / count
-        return Rate(
-            hertz=1e9 / mean if mean > 0 else 0.0,
-            shortest=min(self._intervals) * 1e-9,
-            longest=max(self._intervals) * 1e-9,
-            deviation=math.sqrt(variance) * 1e-9,
-            intervals=count,
+    @property
+    def spread(self) -> str:
+        """A line for people on all but the mean."""
+        return (
+            f"\tmin: {self.least:.3f}s max: {self.most:.3f}s std dev: {self.deviation:.5f}s "
+            f"window: {self.number}"
         )
 
 
-def _rate_text(rate: Rate) -> str:
-    """Return the statistics of one topic as the command prints them."""
-    return (
-        f"average rate: {rate.hertz:.3f}\n\tmin: {rate.shortest:.3f}s max: {rate.longest:.3f}s "
-        f"std dev: {rate.deviation:.5f}s window: {rate.intervals}"
-    )
-
-
-def _rate_table(rates: dict[str, Rate]) -> str:
+def _rate_table(found: dict[str, _Statistics]) -> str:
     """Return the statistics of several topics, a line each."""
     header = ("topic", "rate", "min_delta", "max_delta", "stddev", "window")
     rows = [header]
-    for name, rate in rates.items():
-        numbers = (
-            f"{rate.hertz:.3f}",
-            f"{rate.shortest:.4f}",
-            f"{rate.longest:.4f}",
-            f"{rate.deviation:.5f}",
-        )
-        rows.append((name, *numbers, str(rate.intervals)))
+    for name, (_, least, most, deviation, number) in found.items():
+        numbers = (f"{found[name].rate:.3f}", f"{least:.4f}", f"{most:.4f}", f"{deviation:.5f}")
+        rows.append((name, *numbers, str(number)))
     widths = [max(len(row[i]) for row in rows) for i in range(len(header))]
     lines = ["   ".join(map(str.ljust, row, widths)).rstrip() for row in rows]
     lines.insert(1, "=" * max(map(len, lines)))

@@ -19,8 +19,11 @@ from teo_ros2cli.cli.options import (
     positive_float,
 )
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.graph.cli_node import cli_node, executor_of
+from teo_ros2cli.graph.discovery import full_topic_name, settle
 from teo_ros2cli.interfaces import message_class
 from teo_ros2cli.messages.fill import StampSetter, fill_from_text
+from teo_ros2cli.qos import from_options
 
 # Longest time that reliable subscriptions get to receive the last message [s]. A subscription that has been
 # found may itself find this publisher later, with the next announcement, every 3 s with the defaults of Fast
@@ -104,10 +107,6 @@ def run(options: argparse.Namespace) -> int:
     message = message_class(options.message_type)()
     stamps = fill_from_text(message, given_values(options, "values"), automatic_stamps=True)
 
-    from teo_ros2cli.graph.cli_node import cli_node
-    from teo_ros2cli.graph.discovery import full_topic_name, settle
-    from teo_ros2cli.qos import from_options
-
     with cli_node(options.node_name, use_sim_time=options.use_sim_time) as node:
         topic = full_topic_name(node, options.topic_name)
         profile = from_options(options)
@@ -149,7 +148,7 @@ def _publish(
     times: int,
     options: argparse.Namespace,
 ) -> None:
-    from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+    from rclpy.executors import ExternalShutdownException
 
     count = 0
 
@@ -166,16 +165,12 @@ def _publish(
     if times == 1:
         return
     timer = node.create_timer(1.0 / options.rate, publish)
-    executor = SingleThreadedExecutor(context=node.context)
-    executor.add_node(node)
-    try:
+    with executor_of(node) as executor:
         while times == 0 or count < times:
             executor.spin_once()
             if not node.context.ok():
                 raise ExternalShutdownException  # SIGTERM
-    finally:
-        executor.remove_node(node)
-        node.destroy_timer(timer)
+    node.destroy_timer(timer)
 
 
 def _linger(publisher: Any, profile: Any, keep_alive: float) -> None:
