@@ -16,9 +16,7 @@ from teo_skeleton_retriever.camera.rgbd_image import (
     COLOR_TOPIC,
     DEPTH_TOPIC,
     RgbdImage,
-    camera_of,
-    color_of,
-    depth_of,
+    image_of,
     shows_depth,
     stamp_of,
 )
@@ -178,7 +176,7 @@ class BagImages:
         for pair in pairs:
             self._paired += 1
             try:
-                image = self._image(pair, info)
+                image = image_of(pair.color, pair.depth, info, rectified=self._rectified)
             except RetrieverError as error:
                 self.drop(error)
                 continue
@@ -198,14 +196,6 @@ class BagImages:
         self.reasons[NO_DEPTH] = (
             f"expected a depth image within {self._slop * 1e-9:.3g} s of each colour image, got the nearest "
             f"{gaps[0] * 1e-9:.3f} s away; {advice}"
-        )
-
-    def _image(self, pair: Pair, info: Any) -> RgbdImage:
-        return RgbdImage(
-            stamp=pair.stamp * 1e-9,
-            color=color_of(pair.color),
-            depth=depth_of(pair.depth),
-            camera=camera_of(info, rectified=self._rectified),
         )
 
     def drop(self, error: RetrieverError) -> None:

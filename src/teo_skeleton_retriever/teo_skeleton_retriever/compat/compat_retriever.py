@@ -23,7 +23,7 @@ from teo_skeleton_retriever.compat.original_skeleton import (
 from teo_skeleton_retriever.detectors.detector import DetectionFrame
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25, FACE_70, HAND_21
-from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton, body_frame
+from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton, frame_of_body
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
 from teo_skeleton_retriever.tracking.person_tracker import SignerChoice
 
@@ -71,10 +71,7 @@ class CompatRetriever:
 
     def lock_signer(self, track_id: int | None) -> None:
         """Follow this person as the signer; None chooses by the rule again."""
-        if track_id is None:
-            self._signer.unlock()
-        else:
-            self._signer.lock(track_id)
+        self._signer.lock(track_id)
 
 
 _GROUPS = {
@@ -174,11 +171,6 @@ def _skeleton(track_id: int, is_signer: bool, original: OriginalSkeleton) -> Ske
     status[known & updated] = KeypointStatus.MEASURED
     confidence = np.where(known, np.nan, 0.0)
     sigma = np.full((len(BODY_25), 3), np.nan)
-
-    def place(name: str) -> FloatArray:
-        row: FloatArray = points[BODY_25.index[name]]
-        return row
-
     return Skeleton(
         track_id=track_id,
         is_signer=is_signer,
@@ -186,10 +178,5 @@ def _skeleton(track_id: int, is_signer: bool, original: OriginalSkeleton) -> Ske
         left_hand=Keypoints3D.lost(len(HAND_21)),
         right_hand=Keypoints3D.lost(len(HAND_21)),
         face=Keypoints3D.lost(len(FACE_70)),
-        body_frame=body_frame(
-            left_shoulder=place("LShoulder"),
-            right_shoulder=place("RShoulder"),
-            left_hip=place("LHip"),
-            right_hip=place("RHip"),
-        ),
+        body_frame=frame_of_body(points),
     )

@@ -18,7 +18,7 @@ from teo_skeleton_retriever.arrays import BoolArray, DepthArray, FloatArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25, COCO_18, Layout
-from teo_skeleton_retriever.layouts.person_2d import Person2D, body_25_from_coco_18
+from teo_skeleton_retriever.layouts.person_2d import Person2D, as_body_25
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -318,7 +318,7 @@ def _body_25(body: FloatArray) -> FloatArray:
     if len(body) == len(BODY_25):
         return body
     if len(body) == len(COCO_18):
-        converted = body_25_from_coco_18(body)
+        converted = as_body_25(body)
         # The original knows no mid-hip in COCO: the centre comes from the hips in space, without a pixel.
         converted[BODY_25.index["MidHip"]] = 0.0
         return converted

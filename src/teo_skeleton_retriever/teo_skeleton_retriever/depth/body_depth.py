@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from teo_skeleton_retriever.arrays import BoolArray, FloatArray, median
+from teo_skeleton_retriever.arrays import BoolArray, FloatArray, in_space, median
 from teo_skeleton_retriever.depth.arm_depth import Arm, ArmSolution, ArmSolver
 from teo_skeleton_retriever.depth.depth_lookup import Surfaces, ViewingRays
 from teo_skeleton_retriever.depth.girdle_depth import girdle_depths
@@ -141,14 +141,14 @@ class BodyDepth:
         girdle = girdle_depths(
             surfaces.part(GIRDLE),
             behind[GIRDLE],
-            head=_head(depth),
+            head=median(depth[_HEAD]),
             expected=before.depth[GIRDLE],
             expected_sigma=before.sigma[GIRDLE, 2],
         )
         depth[GIRDLE], replaced[GIRDLE] = girdle.depth, girdle.hidden
         own = np.hypot(girdle.sigma, np.hypot(_SKIN_SIGMA, slanted[GIRDLE]))
         sigma[GIRDLE] = np.where(girdle.hidden, girdle.sigma, own)
-        points = np.column_stack([rays, np.ones(_N)]) * depth[:, None]
+        points = in_space(rays, depth)
         _reject_long_legs(depth, points, size)
         points[replaced] = np.nan
         found = BodyDepths(rays, depth, across, sigma, points, replaced)
@@ -247,12 +247,6 @@ def _part_across(forearm: FloatArray, depth: float, size: BodySize) -> float:
     """
     seen = math.dist(*forearm) * depth / size.length("forearm")[0]
     return seen if math.isfinite(seen) else 1.0
-
-
-def _head(depth: FloatArray) -> float:
-    """Depth of nose and eyes [m]; NaN if not known."""
-    known = depth[_HEAD][np.isfinite(depth[_HEAD])]
-    return median(known) if len(known) else math.nan
 
 
 def _reject_long_legs(depth: FloatArray, points: FloatArray, size: BodySize) -> None:

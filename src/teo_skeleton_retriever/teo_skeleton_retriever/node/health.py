@@ -39,40 +39,27 @@ class Percentiles(NamedTuple):
 
 
 class Result(NamedTuple):
-    """What is kept of one processed image; times in seconds."""
+    """What is kept of one processed image, the defaults of none; times in seconds."""
 
-    now: float
+    now: float = math.nan
     """when it was done"""
-    delay: float
+    delay: float = math.nan
     """from the arrival of the image's last part to the result"""
-    age: float
+    age: float = math.nan
     """from the image's stamp to the result; NaN where the clocks have nothing to do with each other"""
-    detector: float
+    detector: float = math.nan
     """time of the detector"""
-    own: float
+    own: float = math.nan
     """time of what comes after it"""
-    people: int
-    depth_share: float
+    people: int = 0
+    depth_share: float = math.nan
     """part of the pixels with a depth, 0 to 1"""
-    depth_median: float
+    depth_median: float = math.nan
     """of the depths [m]; NaN if there is none"""
-    signer: int | None
+    signer: int | None = None
     """id; None if there is none"""
     people_left_out: int = 0
     """how many more people the detector sees than it follows"""
-
-
-_NOTHING = Result(
-    now=math.nan,
-    delay=math.nan,
-    age=math.nan,
-    detector=math.nan,
-    own=math.nan,
-    people=0,
-    depth_share=math.nan,
-    depth_median=math.nan,
-    signer=None,
-)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -135,7 +122,7 @@ class StreamStats:
         with self._lock:
             arrivals = {name: list(times) for name, times in self._arrivals.items()}
             results = [result for result in self._results if now - result.now <= _WINDOW]
-            last = self._results[-1] if self._results else _NOTHING
+            last = self._results[-1] if self._results else Result()
             dropped, count = dict(self._dropped), self._count
         streams = arrivals | {"results": [result.now for result in results]}
         return StreamReport(
@@ -160,7 +147,7 @@ def _rate(times: list[float], now: float) -> float:
 def _percentiles(values: list[float]) -> Percentiles:
     known = [value for value in values if np.isfinite(value)]
     if not known:
-        return Percentiles(float("nan"), float("nan"))
+        return Percentiles(math.nan, math.nan)
     median, p99 = np.percentile(known, [50, 99])
     return Percentiles(float(median), float(p99))
 

@@ -14,7 +14,7 @@ from typing import Generic, TypeVar
 # [s] after which a thread that runs lets another one in. MediaPipe's threads call Python eleven times for an
 # image; at Python's own 5 ms each of these calls may stop a network for as long as another image's second
 # half or a message takes.
-SWITCH_INTERVAL = 0.0005
+_SWITCH_INTERVAL = 0.0005
 
 
 def tune_interpreter() -> None:
@@ -23,7 +23,7 @@ def tune_interpreter() -> None:
     For the process of a node, once all is loaded: a full collection stops all threads for 30 ms, nearly all
     of it for modules and classes that never go.
     """
-    sys.setswitchinterval(SWITCH_INTERVAL)
+    sys.setswitchinterval(_SWITCH_INTERVAL)
     gc.collect()
     gc.freeze()
 

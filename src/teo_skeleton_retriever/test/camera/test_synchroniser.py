@@ -63,17 +63,6 @@ def test_depth_that_lags_by_a_few_images_is_waited_for():
     assert fed(new(), *arrivals) == [(s, s) for _, s in colors]
 
 
-def test_depth_at_half_the_rate_pairs_with_every_other_colour():
-    sync = new()
-    arrivals = [
-        x
-        for i in range(10)
-        for x in ([("c", BASE + i * PERIOD)] + ([("d", BASE + i * PERIOD)] if i % 2 == 0 else []))
-    ]
-    assert [s for s, _ in fed(sync, *arrivals)] == [BASE + i * PERIOD for i in range(0, 10, 2)]
-    assert sync.dropped[NO_DEPTH] == 4  # the last still waits
-
-
 def test_stamps_that_jump_back_begin_anew():
     sync = new()
     assert fed(sync, ("c", BASE), ("d", BASE))

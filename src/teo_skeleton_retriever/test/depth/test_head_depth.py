@@ -26,13 +26,6 @@ def look(head: Surfaces, face: Surfaces, *, neck: float = EYES + 0.12, before: b
     return head_depths(head, np.zeros(5), face, neck=neck, expected=DEPTHS if before else UNKNOWN)
 
 
-def test_a_head_in_plain_view_is_where_it_is_measured() -> None:
-    found = look(surfaces(DEPTHS), surfaces(np.full(70, EYES)))
-    np.testing.assert_allclose(found.depths, DEPTHS)
-    assert not found.hidden.any()
-    assert found.eyes == pytest.approx(EYES, abs=0.01)
-
-
 @pytest.mark.parametrize("before", [False, True])
 def test_a_hand_before_most_of_the_face_is_not_the_face(before: bool) -> None:
     nearer = DEPTHS.copy()

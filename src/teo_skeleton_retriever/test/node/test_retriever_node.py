@@ -50,6 +50,7 @@ def test_an_empty_scene_gives_an_empty_array_for_each_image(start):
     bench.send_until(lambda: len(bench.arrays) > 3)
     assert all(not message.skeletons for message in bench.arrays)
     bench.until(lambda: bench.said("people") == "0" and int(bench.said("results")) > 3)
+    assert (bench.said("depth known [%]"), bench.said("median depth [m]")) == ("100", "3.00")
 
 
 @pytest.mark.parametrize(

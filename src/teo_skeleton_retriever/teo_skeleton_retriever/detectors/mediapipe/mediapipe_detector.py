@@ -13,7 +13,6 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from functools import partial
-from typing import NamedTuple
 
 import numpy as np
 
@@ -232,18 +231,14 @@ def _in_unit_range(name: str, value: float) -> float:
 _LEAST_SIDE = 0.3
 
 
-class _OwnHands(NamedTuple):
-    """Whether the left and the right hand are there and on the side they were taken for."""
+def own_hands(landmarks: HolisticLandmarks) -> tuple[bool, bool]:
+    """Whether the left and the right hand are there and on the side they were taken for.
 
-    left: bool
-    right: bool
-
-
-def own_hands(landmarks: HolisticLandmarks) -> _OwnHands:
-    """Tell which hands are on the side they were taken for; a single hand always counts as such."""
+    A single hand always counts as such.
+    """
     if landmarks.left_hand is None or landmarks.right_hand is None:
-        return _OwnHands(landmarks.left_hand is not None, landmarks.right_hand is not None)
-    return _OwnHands(landmarks.left_hand_side >= _LEAST_SIDE, landmarks.right_hand_side >= _LEAST_SIDE)
+        return landmarks.left_hand is not None, landmarks.right_hand is not None
+    return landmarks.left_hand_side >= _LEAST_SIDE, landmarks.right_hand_side >= _LEAST_SIDE
 
 
 # Where hands come close, both crops may settle on the same hand: in a rendered take of two hands on each
