@@ -60,8 +60,7 @@ _HAND_SHARE = 0.6  # of the greatest sigma: a finger that may be half a hand awa
 _SURE = 0.02  # [m] standard deviation across the ray of a joint that is plainly seen, which `BIAS` stands for
 _CARRIED = 0.05  # [m] standard deviation of a hand that is not seen and goes with its wrist: it turns
 _GUESSED = 0.025  # [m] standard deviation that is added to a keypoint that an arm hides
-# Elbows at which the own forearm lies, wrists at which the own hand does as well: only from farther before
-# them than their own skin do these hide them.
+# Elbows, before which the own forearm may lie, and wrists, before which the own hand may lie as well.
 _OWN_LIMBS = {row: rows[1 : i + 1] for rows in ARMS.values() for i, row in enumerate(rows) if i}
 _HEAD_AND_FACE = [*HEAD, *range(FACE.start, FACE.stop)]
 _OF_HEAD, _OF_FACE = slice(0, len(HEAD)), slice(len(HEAD), None)
@@ -114,10 +113,10 @@ class PersonEstimator:
         optimised = np.zeros(KEYPOINTS, dtype=bool)
         fits = self._fit_hands(person, seen, surfaces, before)
         hands = {side: fit.points for side, fit in fits.items()}
-        trunk = surfaces.part(GIRDLE)
         arms = occluders(before.part(BODY).points, hands)
-        trunk = trunk.without(arms.shown(seen.rays[GIRDLE], trunk.depth))
-        body = self._find_body(seen, surfaces.replaced(GIRDLE, trunk), before, fits)
+        shown = np.zeros(surfaces.depth.shape, dtype=bool)
+        shown[GIRDLE] = arms.shown(seen.rays[GIRDLE], surfaces.depth[GIRDLE])
+        body = self._find_body(seen, surfaces.without(shown), before, fits)
         depth[BODY], sigma[BODY], optimised[BODY] = body.depths, body.sigma, body.optimised
         rays = np.concatenate([body.rays, seen.rays[BODY.stop :]])
         for side, fit in fits.items():
@@ -138,7 +137,7 @@ class PersonEstimator:
             depth[FACE], sigma[FACE] = face.depths, face.sigma
             optimised[FACE] = ~face.measured
         near = np.where(np.isfinite(depth), depth, distance)
-        hidden = np.isfinite(arms.before(rays, near, arms.of(_OWN_LIMBS)))
+        hidden = arms.hide(rays, near, _OWN_LIMBS)
         hidden[HEAD] |= head.hidden
         hidden[_ON_HANDS] = False  # a hand before a hand is the fit's affair
         doubt = np.zeros(KEYPOINTS)

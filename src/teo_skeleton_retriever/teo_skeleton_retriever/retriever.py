@@ -63,15 +63,12 @@ class Retriever:
             self._skeleton(frame, people[i], i, float(seen[i][2]), is_signer=i == signer) for i in people
         ]
         skeletons += [
-            self._skeleton(frame, Person2D(), i, float(remembered[i].position[2]), is_signer=i == self.signer)
+            self._skeleton(
+                frame, Person2D(), i, float(remembered[i].position[2]), is_signer=i == self._signer.signer
+            )
             for i in held
         ]
         return tuple(sorted(skeletons, key=lambda skeleton: skeleton.track_id))
-
-    @property
-    def signer(self) -> int | None:
-        """Id of the signer, seen or waited for; None if there is none."""
-        return self._signer.signer
 
     @property
     def newcomer_images(self) -> int:

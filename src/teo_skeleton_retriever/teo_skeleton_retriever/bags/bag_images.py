@@ -38,13 +38,7 @@ class Topics(NamedTuple):
 
 
 def choose_topics(bag: Bag, *, color: str = "", depth: str = "", camera_info: str = "") -> Topics:
-    """Find the topics of a bag by the encodings of their first images.
-
-    Args:
-        bag: To look into.
-        color: Name of the topic; to be found if empty.
-        depth: Likewise.
-        camera_info: Likewise.
+    """Find the topics of a bag by the encodings of their first images, but for those that are named.
 
     Raises:
         TopicError: None or several may be meant.

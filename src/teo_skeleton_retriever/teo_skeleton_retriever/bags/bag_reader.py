@@ -14,20 +14,39 @@ import sqlite3
 import struct
 from collections import Counter
 from collections.abc import Callable, Collection, Iterator
+from functools import cache
 from io import BytesIO
 from pathlib import Path
-from typing import Any, BinaryIO, NamedTuple, Protocol
+from typing import Any, BinaryIO, NamedTuple
 
 import lz4.frame
+from ament_index_python.packages import get_package_share_directory
 from mcap.writer import MCAP0_MAGIC
 from rosbags.rosbag1 import Reader as Ros1Reader
 from rosbags.rosbag2 import Reader as Ros2Reader
-from rosbags.typesys import Stores, get_typestore
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+from rosbags.typesys.store import Typestore
 
 from teo_common import mcap_salvage
 from teo_common.mcap_salvage import McapContent
-from teo_skeleton_retriever.bags.message_types import message_types
 from teo_skeleton_retriever.errors import RetrieverError
+
+_SKELETONS = (
+    "teo_sign_msgs/msg/Keypoint3D",
+    "teo_sign_msgs/msg/Skeleton3D",
+    "teo_sign_msgs/msg/SkeletonArray",
+)
+
+
+@cache
+def message_types() -> Typestore:
+    """Give the types of messages of ROS 2 and that of the skeletons, for bags."""
+    folder = Path(get_package_share_directory("teo_sign_msgs")) / "msg"
+    store = get_typestore(Stores.ROS2_JAZZY)
+    for name in _SKELETONS:
+        text = (folder / f"{name.rpartition('/')[2]}.msg").read_text(encoding="utf-8")
+        store.register(get_types_from_msg(text, name))
+    return store
 
 
 class _RawMessage(NamedTuple):
@@ -184,17 +203,6 @@ class BagMessage(NamedTuple):
     message: Any
 
 
-class _Source(Protocol):
-    """Where the bytes come from. `problem` is filled in while it is read."""
-
-    kinds: dict[str, str]
-    counts: dict[str, int]
-    begins: int
-    problem: str
-
-    def messages(self, topics: Collection[str]) -> Iterator[_RawMessage]: ...
-
-
 class Bag:
     """A bag that was opened for reading; may be read several times.
 
@@ -246,7 +254,7 @@ class Bag:
         return self._types.deserialize_cdr(raw.data, raw.kind)
 
 
-def _open(path: Path) -> _Source:
+def _open(path: Path) -> _Whole | _Salvaged:
     if not path.exists():
         raise RetrieverError("missing_bag", f"expected a bag, got {path}, which does not exist")
     if path.is_file() and path.suffix not in _SCANS:
@@ -282,7 +290,7 @@ def _is_finished(file: Path) -> bool:
 
 
 class _Whole:
-    """A bag with its index."""
+    """A bag with its index. `problem` is filled in while it is read."""
 
     def __init__(self, path: Path) -> None:
         self._reader = Ros1Reader(path) if path.suffix == ".bag" else Ros2Reader(path)

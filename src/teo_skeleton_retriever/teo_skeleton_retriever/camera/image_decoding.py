@@ -25,6 +25,8 @@ from teo_skeleton_retriever.errors import RetrieverError
 
 _MILLIMETRE = np.float32(0.001)
 _TYPES = {"16UC1": "u2", "mono16": "u2", "32FC1": "f4"}
+# Encodings of depth in sensor_msgs/Image.
+DEPTH_ENCODINGS = tuple(_TYPES)
 # 67 million: twice 8K; larger sizes come from a corrupt message.
 _MAX_PIXELS = 1 << 26
 ColorArray = NDArray[np.uint8]
@@ -204,7 +206,7 @@ def decode_compressed_depth(data: Bytes, message_format: str) -> DepthArray:
         RetrieverError: The format is none of these, or the data are not of the format.
     """
     encoding = message_format.partition(";")[0].strip()
-    if encoding not in ("16UC1", "mono16", "32FC1"):
+    if encoding not in _TYPES:
         raise RetrieverError(
             "wrong_encoding", f"expected '16UC1; ...' or '32FC1; ...', got the format {message_format!r:.60}"
         )

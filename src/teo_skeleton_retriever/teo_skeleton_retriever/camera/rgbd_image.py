@@ -19,6 +19,7 @@ from teo_skeleton_retriever.arrays import DepthArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.camera.image_decoding import (
     COLOR_ENCODINGS,
+    DEPTH_ENCODINGS,
     ColorArray,
     decode_color,
     decode_compressed_color,
@@ -119,7 +120,6 @@ DEPTH_TOPIC = "camera/aligned_depth_to_color/image_raw"
 CAMERA_INFO_TOPIC = "camera/color/camera_info"
 
 
-_DEPTH_ENCODINGS = ("16UC1", "mono16", "32FC1")
 _NANOSECONDS = 1_000_000_000
 
 
@@ -183,8 +183,8 @@ def image_of(color: Any, depth: Any, camera_info: Any, *, rectified: bool) -> Rg
 def shows_depth(message: Any) -> bool | None:
     """Tell by its encoding whether an image is one of depth; None if it is neither depth nor colour."""
     if _is_compressed(message):
-        return message.format.partition(";")[0].strip() in _DEPTH_ENCODINGS
-    if message.encoding in _DEPTH_ENCODINGS:
+        return message.format.partition(";")[0].strip() in DEPTH_ENCODINGS
+    if message.encoding in DEPTH_ENCODINGS:
         return True
     return False if message.encoding in COLOR_ENCODINGS else None
 

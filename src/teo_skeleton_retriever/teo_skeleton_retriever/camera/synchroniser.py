@@ -30,13 +30,11 @@ class Pair(NamedTuple):
 
     Attributes:
         stamp: Of the colour image [ns].
-        depth_stamp: [ns].
         color: As it was given.
         depth: As it was given.
     """
 
     stamp: int
-    depth_stamp: int
     color: Any
     depth: Any
 
@@ -129,7 +127,7 @@ class Synchroniser:
         self.dropped[NO_COLOR] += before
         del self._depths[: before + 1]
         self._given = color.stamp
-        return Pair(color.stamp, nearest.stamp, color.item, nearest.item)
+        return Pair(color.stamp, color.item, nearest.item)
 
     def _note(self, kind: str, stamp: int) -> None:
         """Start anew if the stamps of a kind were set back."""

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -39,12 +40,7 @@ class CompatRetriever:
     """
 
     def __init__(self, parameters: RetrieverParameters, original: OriginalParameters | None = None) -> None:
-        """Build a retriever that has seen nobody yet.
-
-        Args:
-            parameters: Of which only those of the choice of the signer matter.
-            original: Of the processing.
-        """
+        """Build a retriever that has seen nobody yet; `parameters` matter for the signer's choice alone."""
         self._original = original or OriginalParameters()
         self._signer = SignerChoice(parameters.signer_rule, parameters.signer_patience)
         self._camera: CameraModel | None = None
@@ -162,19 +158,16 @@ def _places(found: Mapping[int, OriginalSkeleton]) -> dict[int, FloatArray]:
 def _skeleton(track_id: int, is_signer: bool, original: OriginalSkeleton) -> Skeleton:
     body = Keypoints3D.lost(len(BODY_25))
     points, pixels, status = body.points.copy(), body.pixels.copy(), body.status.copy()
-    points[_ROWS] = original.points[_SOURCES]
-    pixels[_ROWS] = original.pixels[_SOURCES]
+    points[_ROWS], pixels[_ROWS] = original.points[_SOURCES], original.pixels[_SOURCES]
     known = np.isfinite(points).all(axis=1)
-    updated = np.zeros(len(BODY_25), dtype=bool)
-    updated[_ROWS] = original.updated[_SOURCES]
-    status[known] = KeypointStatus.HELD  # "stale" in the original: where it was last
-    status[known & updated] = KeypointStatus.MEASURED
+    status[_ROWS] = KeypointStatus.HELD  # "stale" in the original: where it was last
+    status[_ROWS[original.updated[_SOURCES]]] = KeypointStatus.MEASURED
+    status[~known] = KeypointStatus.LOST
     confidence = np.where(known, np.nan, 0.0)
-    sigma = np.full((len(BODY_25), 3), np.nan)
     return Skeleton(
         track_id=track_id,
         is_signer=is_signer,
-        body=Keypoints3D(points=points, confidence=confidence, status=status, sigma=sigma, pixels=pixels),
+        body=replace(body, points=points, confidence=confidence, status=status, pixels=pixels),
         left_hand=Keypoints3D.lost(len(HAND_21)),
         right_hand=Keypoints3D.lost(len(HAND_21)),
         face=Keypoints3D.lost(len(FACE_70)),

@@ -98,13 +98,6 @@ class Surfaces(NamedTuple):
         """Keep some of the keypoints."""
         return Surfaces(self.depth[rows], self.sigma[rows], self.support[rows])
 
-    def replaced(self, rows: list[int], others: Surfaces) -> Surfaces:
-        """Put others in the place of those of some keypoints."""
-        new = Surfaces(*(values.copy() for values in self))
-        for values, those in zip(new, others, strict=True):
-            values[rows] = those
-        return new
-
     def between(self, near: float, far: float) -> Surfaces:
         """Drop surfaces that are nearer or farther [m]; a NaN bound drops none."""
         with np.errstate(invalid="ignore"):
@@ -147,12 +140,7 @@ class DepthLookup:
     """Splits the depths in a disc around each keypoint into surfaces."""
 
     def __init__(self, *, nearest: float, farthest: float) -> None:
-        """Set what counts as measured.
-
-        Args:
-            nearest: Nearer is not measured but noise [m].
-            farthest: Farther is background [m].
-        """
+        """Set what counts as measured: nearer is noise, farther is background [m]."""
         self._nearest = nearest
         self._farthest = farthest
 

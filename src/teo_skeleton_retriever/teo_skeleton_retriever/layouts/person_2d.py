@@ -78,12 +78,7 @@ class Person2D:
 
 
 def midpoint(first: FloatArray, second: FloatArray) -> FloatArray:
-    """Mean position with the lower confidence; absent (zero) if either is absent.
-
-    Args:
-        first: x, y [px], confidence. Shape (3,).
-        second: Likewise.
-    """
+    """Mean position of two keypoints x, y [px], confidence, with the lower one; zero if either is absent."""
     confidence = min(first[2], second[2])
     if not confidence > 0.0:
         return np.zeros(3)

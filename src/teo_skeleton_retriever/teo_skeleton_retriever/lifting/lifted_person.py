@@ -20,8 +20,16 @@ from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.layouts.person_layout import BODY, HANDS, KEYPOINTS, ROW
 from teo_skeleton_retriever.layouts.skeleton_3d import KeypointStatus
 from teo_skeleton_retriever.lifting.arms import SeenArm, lift_arm, measure_body
-from teo_skeleton_retriever.lifting.clip import ELBOW, HIP, SHOULDER, SIDES, WRIST, Points, PoseClip
-from teo_skeleton_retriever.lifting.depth_smoothing import smooth_depth
+from teo_skeleton_retriever.lifting.clip import (
+    ELBOW,
+    HIP,
+    SHOULDER,
+    SIDES,
+    WRIST,
+    Points,
+    PoseClip,
+    smooth_depth,
+)
 from teo_skeleton_retriever.lifting.hand_axes import MIDDLE, RING
 from teo_skeleton_retriever.lifting.hand_axes import WRIST as HAND_WRIST
 from teo_skeleton_retriever.lifting.hands import LiftedHand, has_depth, lift_hand, with_learned_fingers

@@ -87,12 +87,7 @@ class StreamStats:
     """Counts. May be used by several threads. Times [s] are of a clock that never goes back."""
 
     def __init__(self, streams: tuple[str, ...], now: float) -> None:
-        """Begin with nothing.
-
-        Args:
-            streams: Names of what arrives.
-            now: Time of the start.
-        """
+        """Begin with nothing, at a time; `streams` are the names of what arrives."""
         self._start = now
         self._lock = threading.Lock()
         self._arrivals: dict[str, deque[float]] = {name: deque(maxlen=_MOST) for name in streams}
@@ -224,13 +219,7 @@ class ImageDiagnostics:
     """Publishes the state when asked, and at once when a problem is new. May be used by several threads."""
 
     def __init__(self, node: Any, stats: StreamStats, topics: dict[str, str]) -> None:
-        """Create the publisher.
-
-        Args:
-            node: To publish and to log with.
-            stats: Of its streams.
-            topics: Name of the topic of each stream that must come.
-        """
+        """Create the publisher; `topics` are those of the streams that must come."""
         self._node = node
         self._stats = stats
         self._topics = topics

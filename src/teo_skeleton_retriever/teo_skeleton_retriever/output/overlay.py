@@ -259,12 +259,7 @@ class OverlayVideo:
         self._ticks = -1
 
     def add(self, picture: ColorArray, stamp: float) -> None:
-        """Append a picture; one of another size than the first is scaled to it.
-
-        Args:
-            picture: RGB. Shape (height, width, 3).
-            stamp: When it was taken [s].
-        """
+        """Append an RGB picture taken at a time [s]; one of another size than the first is scaled to it."""
         # The format wants even sizes.
         height, width = (size - size % 2 for size in picture.shape[:2])
         if self._stream is None:

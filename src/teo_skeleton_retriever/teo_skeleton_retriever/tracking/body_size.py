@@ -27,11 +27,7 @@ class LimbLength:
     """
 
     def __init__(self, *, min_samples: int = 10) -> None:
-        """Know nothing yet.
-
-        Args:
-            min_samples: Fewer lengths make no estimate: a third of a second.
-        """
+        """Know nothing yet; fewer lengths than `min_samples`, a third of a second, make no estimate."""
         self._min_samples = min_samples
         self._samples = np.zeros((_WINDOW, 2))  # lengths and weights, the oldest overwritten
         self._count = 0  # of all lengths so far

@@ -23,8 +23,8 @@ def fed(sync: Synchroniser, *arrivals: tuple[str, int]) -> list[tuple[int, int]]
     for kind, stamp in arrivals:
         add = sync.add_color if kind == "c" else sync.add_depth
         for pair in add(stamp, stamp):
-            assert (pair.color, pair.depth) == (pair.stamp, pair.depth_stamp)
-            pairs.append((pair.stamp, pair.depth_stamp))
+            assert pair.color == pair.stamp
+            pairs.append((pair.stamp, pair.depth))
     return pairs
 
 
@@ -95,7 +95,7 @@ def test_the_end_of_a_recording_gives_what_waits():
 def test_whatever_comes_pairs_are_near_ascend_and_no_image_is_lost_uncounted(arrivals, slop, capacity):
     sync = new(slop, capacity)
     pairs = fed(sync, *arrivals)
-    pairs += [(pair.stamp, pair.depth_stamp) for pair in sync.finish()]
+    pairs += [(pair.stamp, pair.depth) for pair in sync.finish()]
     assert all(abs(color - depth) <= slop for color, depth in pairs)
     assert [color for color, _ in pairs] == sorted({color for color, _ in pairs})
     assert len({depth for _, depth in pairs}) == len(pairs)

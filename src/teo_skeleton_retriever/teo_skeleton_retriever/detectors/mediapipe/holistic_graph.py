@@ -135,11 +135,8 @@ class HolisticGraph:
     """The running graph; follows one person from image to image.
 
     Calls from several threads are worked on together: the pose of one image while the hands of the one before
-    are still being looked at. Images are taken in the order of the calls.
-
-    Args:
-        min_tracking_confidence: Below which a followed person counts as lost.
-        lite_hands: Look at hands with the smaller of the two networks.
+    are still being looked at. Images are taken in the order of the calls. For the options see
+    `holistic_configuration`.
     """
 
     def __init__(self, *, min_tracking_confidence: float, lite_hands: bool) -> None:
