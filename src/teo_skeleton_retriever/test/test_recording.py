@@ -19,16 +19,6 @@ from teo_skeleton_retriever.retriever import Retriever, RetrieverParameters
 IMAGES = 10
 
 
-@pytest.fixture
-def bag(tmp_path: Path) -> Path:
-    return bag_take.write_ros2(tmp_path / "take", list(bag_take.messages(IMAGES)))
-
-
-@pytest.fixture
-def keypoints(tmp_path: Path) -> Path:
-    return bag_take.write_keypoints(tmp_path / "keypoints", IMAGES)
-
-
 def retrieve(bag: Path, keypoints: Path, **options: Any) -> RetrievalReport:
     """Retrieve with keypoints that are known, so that no network runs."""
     images = ImageRetriever(make_detector("replay", folder=str(keypoints)), Retriever(RetrieverParameters()))

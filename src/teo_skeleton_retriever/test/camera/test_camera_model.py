@@ -59,6 +59,11 @@ def test_the_field_of_view_spans_the_image() -> None:
     assert np.degrees(np.arctan(edges[1]) - np.arctan(edges[0])) == pytest.approx(54.7282)
 
 
+def test_points_that_are_not_before_the_camera_have_no_pixel() -> None:
+    pixels = camera().project(np.array([[0, 0, 1.0], [0, 0, 0], [0, 0, -1], [0, 0, math.nan]]))
+    assert np.isfinite(pixels).all(axis=1).tolist() == [True, False, False, False]
+
+
 def test_where_a_lens_images_nothing_there_is_no_ray() -> None:
     barrel = camera(distortion_model="plumb_bob", distortion=np.array([-0.4, 0.0, 0.0, 0.0, 0.0]))
     rays = barrel.rays(np.array([[322.5, 237.1], [5000.0, 237.1]]))

@@ -11,7 +11,7 @@ from capsule_person import imagined_shape, pose
 from scipy.spatial.transform import Rotation
 
 from teo_skeleton_retriever.depth.depth_lookup import Surfaces
-from teo_skeleton_retriever.depth.hand_shape import HandFit, HandView, fit_hands, turned
+from teo_skeleton_retriever.depth.hand_shape import CHILD, PARENT, HandFit, HandView, fit_hands, laid, turned
 from teo_skeleton_retriever.depth.skin import HAND_DEPTHS
 
 HAND = pose((-0.4, -0.2, -0.1), (0.25, 0.05, -0.2), curl=0.3).right_hand
@@ -97,3 +97,11 @@ def test_a_hand_is_turned_and_never_mirrored() -> None:
     mirrored = bones * [-1.0, 1.0, 1.0]
     way, *_ = np.linalg.lstsq(mirrored[0], turned(mirrored, bones, np.ones((1, 20)))[0], rcond=None)
     assert np.linalg.det(way) == pytest.approx(1.0)
+
+
+def test_depths_of_something_else_do_not_pull_a_hand() -> None:
+    measured = HAND[:, 2].copy()
+    measured[[8, 12, 16, 20]] += 0.15  # what is behind four fingertips
+    bends = HAND / HAND[:, 2:]
+    depths = laid((HAND[CHILD] - HAND[PARENT])[None], bends[None], measured[None], np.ones((1, 21)))[0]
+    np.testing.assert_allclose(depths, HAND[:, 2], atol=0.006)
