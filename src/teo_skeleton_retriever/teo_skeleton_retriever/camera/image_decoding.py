@@ -29,6 +29,7 @@ _TYPES = {"16UC1": "u2", "mono16": "u2", "32FC1": "f4"}
 DEPTH_ENCODINGS = tuple(_TYPES)
 # 67 million: twice 8K; larger sizes come from a corrupt message.
 _MAX_PIXELS = 1 << 26
+
 ColorArray = NDArray[np.uint8]
 Bytes = bytes | bytearray | memoryview | np.ndarray
 

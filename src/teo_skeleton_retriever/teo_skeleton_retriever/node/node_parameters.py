@@ -15,6 +15,7 @@ from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.image_retriever import COMPAT_MODES
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters, parameter_rows
 
+# What holds from the start of the node to its end.
 _at_start = partial(ParameterRow, read_only=True)
 _NODE = (
     _at_start(

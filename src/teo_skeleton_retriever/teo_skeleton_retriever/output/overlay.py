@@ -146,11 +146,9 @@ def _draw_unfollowed(picture: ColorArray, result: Retrieved, scale: float) -> No
     if result.skeletons:
         return
     for person in result.people:
-        for x, y, confidence in person.body:
-            if confidence > 0.0:
-                pixel = _on_picture(np.array([[x, y]]), picture)[0]
-                if np.isfinite(pixel).all():
-                    _cross(picture, pixel, 3.0 * scale)
+        for pixel in _on_picture(person.body[person.body[:, 2] > 0.0, :2], picture):
+            if np.isfinite(pixel).all():
+                _cross(picture, pixel, 3.0 * scale)
 
 
 def _draw_inset(

@@ -29,7 +29,7 @@ _APART = 0.2
 
 
 @dataclass(frozen=True, eq=False)
-class _TrackedPerson:
+class TrackedPerson:
     """What is known of where a person is.
 
     Attributes:
@@ -64,13 +64,13 @@ class PersonTracker:
     def __init__(self, newcomer_images: int = 3) -> None:
         """Know nobody yet; with fewer images before an id is given flickers of the detector become people."""
         self._newcomer_images = newcomer_images
-        self._people: dict[int, _TrackedPerson] = {}
-        self._newcomers: list[_TrackedPerson] = []
+        self._people: dict[int, TrackedPerson] = {}
+        self._newcomers: list[TrackedPerson] = []
         self._next_id = 0
         self._time = -math.inf
 
     @property
-    def people(self) -> dict[int, _TrackedPerson]:
+    def people(self) -> dict[int, TrackedPerson]:
         """Everybody remembered, by id."""
         return dict(self._people)
 
@@ -122,8 +122,8 @@ class PersonTracker:
         self._newcomers = [person for person in self._newcomers if time - person.first_seen <= _NEWCOMER_TIME]
 
     def _match(
-        self, time: float, seen: dict[int, FloatArray], people: list[_TrackedPerson]
-    ) -> list[tuple[int, _TrackedPerson]]:
+        self, time: float, seen: dict[int, FloatArray], people: list[TrackedPerson]
+    ) -> list[tuple[int, TrackedPerson]]:
         """Pair detections with people: as many as the gates allow, at the least sum of squared distances."""
         if not seen or not people:
             return []
@@ -147,7 +147,7 @@ class PersonTracker:
             for person in self._people.values()
         )
 
-    def _moved(self, person: _TrackedPerson, time: float, places: FloatArray) -> _TrackedPerson:
+    def _moved(self, person: TrackedPerson, time: float, places: FloatArray) -> TrackedPerson:
         expected = person.expected(time)
         position = places[int(np.argmin(np.linalg.norm(places - expected, axis=1)))]
         elapsed = time - person.last_seen
@@ -163,7 +163,7 @@ class PersonTracker:
             images=person.images + 1,
         )
 
-    def _admit(self, newcomer: _TrackedPerson) -> int | None:
+    def _admit(self, newcomer: TrackedPerson) -> int | None:
         if newcomer.images < self._newcomer_images:
             self._newcomers.append(newcomer)
             return None
@@ -173,8 +173,8 @@ class PersonTracker:
         return person_id
 
 
-def _newcomer(time: float, position: FloatArray) -> _TrackedPerson:
-    return _TrackedPerson(-1, frozen(position), frozen(np.zeros(3)), time, 1, time)
+def _newcomer(time: float, position: FloatArray) -> TrackedPerson:
+    return TrackedPerson(-1, frozen(position), frozen(np.zeros(3)), time, 1, time)
 
 
 class SignerChoice:

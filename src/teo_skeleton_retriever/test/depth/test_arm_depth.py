@@ -111,6 +111,12 @@ def test_the_elbow_that_would_bend_too_far_is_not_taken() -> None:
     assert math.acos(cosine) > math.pi - MAX_FLEXION - math.radians(5)
 
 
+def test_a_shoulder_of_unknown_depth_leaves_nothing_to_hang_an_arm_from() -> None:
+    measured = SIGNING[:, 2].copy()
+    measured[0] = math.nan
+    assert SOLVER.solve([arm(SIGNING, measured=measured)]) == [None]
+
+
 angles = st.tuples(st.floats(-1.2, 1.2), st.floats(-1.2, 1.4))
 
 

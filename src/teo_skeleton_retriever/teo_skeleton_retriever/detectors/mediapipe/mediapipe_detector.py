@@ -26,29 +26,14 @@ from teo_skeleton_retriever.layouts.person_2d import Person2D, midpoint
 
 _NOTHING = np.zeros((0, 3))
 
-# Small toes have no counterpart.
-BODY_25_FROM_POSE: dict[str, int] = {
-    "Nose": 0,
-    "RShoulder": 12,
-    "RElbow": 14,
-    "RWrist": 16,
-    "LShoulder": 11,
-    "LElbow": 13,
-    "LWrist": 15,
-    "RHip": 24,
-    "RKnee": 26,
-    "RAnkle": 28,
-    "LHip": 23,
-    "LKnee": 25,
-    "LAnkle": 27,
-    "REye": 5,
-    "LEye": 2,
-    "REar": 8,
-    "LEar": 7,
-    "LBigToe": 31,
-    "LHeel": 29,
-    "RBigToe": 32,
-    "RHeel": 30,
+# From the shoulders down left landmarks are odd, the right ones next to them. Small toes have no counterpart.
+BODY_25_FROM_POSE: dict[str, int] = {"Nose": 0, "LEye": 2, "REye": 5, "LEar": 7, "REar": 8} | {
+    f"{side}{joint}": left + (side == "R")
+    for side in "LR"
+    for joint, left in (
+        *(("Shoulder", 11), ("Elbow", 13), ("Wrist", 15)),
+        *(("Hip", 23), ("Knee", 25), ("Ankle", 27), ("Heel", 29), ("BigToe", 31)),
+    )
 }
 # Keypoints that MediaPipe does not give: mean of two, with the lower confidence.
 _BODY_25_FROM_PAIRS: dict[str, tuple[str, str]] = {
