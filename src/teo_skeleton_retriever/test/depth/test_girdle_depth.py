@@ -68,6 +68,13 @@ def test_a_hand_before_the_face_does_not_push_the_shoulders_back() -> None:
     assert np.abs(told.depth - truth).max() < 0.04
 
 
+def test_without_any_depth_nothing_is_said() -> None:
+    nothing = Surfaces(np.full((3, 3), np.nan), np.full((3, 3), np.nan), np.zeros((3, 3)))
+    told = girdle_depths(nothing, BEHIND, head=math.nan, expected=NOWHERE, expected_sigma=NOWHERE)
+    assert np.isnan(told.depth).all()
+    assert not told.hidden.any()
+
+
 def test_who_was_taken_for_a_hand_in_one_image_is_found_in_the_next() -> None:
     truth, face = person(0.0)
     told = found(truth, NOWHERE, face, expected=truth - np.array([0.0, 0.25, 0.25]))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -93,3 +94,12 @@ def test_a_held_hand_comes_to_rest() -> None:
     held = depths(play(filter_, np.full((8, 1, 3), math.nan), start=20 / RATE))[:, 0]
     assert held[-1] - seen[-1, 0, 2] < 1.5 * 0.17 + 0.03
     assert np.diff(held)[-1] < 0.5 * np.diff(held)[0]
+
+
+def test_what_is_not_seen_is_held_with_growing_doubt_then_forgotten() -> None:
+    filter_ = make()
+    play(filter_, still(20, 1))
+    outputs = play(filter_, np.full((12, 1, 3), math.nan), start=20 / RATE)
+    sigmas = [float(output.sigma[0, 2]) for output in outputs]
+    assert all(later > earlier for earlier, later in pairwise(sigmas[:8]))
+    assert math.isnan(outputs[-1].depth[0])
