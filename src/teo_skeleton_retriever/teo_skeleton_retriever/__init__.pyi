@@ -6,25 +6,13 @@ from .detectors.detector import DETECTORS as DETECTORS
 from .detectors.detector import DetectionFrame as DetectionFrame
 from .detectors.detector import make_detector as make_detector
 from .errors import RetrieverError as RetrieverError
-from .image_retriever import (
-    ImageRetriever as ImageRetriever,
-)
-from .image_retriever import (
-    Retrieved as Retrieved,
-)
-from .image_retriever import (
-    make_retriever as make_retriever,
-)
+from .image_retriever import ImageRetriever as ImageRetriever
+from .image_retriever import Retrieved as Retrieved
+from .image_retriever import make_retriever as make_retriever
 from .layouts.person_2d import Person2D as Person2D
-from .layouts.skeleton_3d import (
-    Keypoints3D as Keypoints3D,
-)
-from .layouts.skeleton_3d import (
-    KeypointStatus as KeypointStatus,
-)
-from .layouts.skeleton_3d import (
-    Skeleton as Skeleton,
-)
+from .layouts.skeleton_3d import Keypoints3D as Keypoints3D
+from .layouts.skeleton_3d import KeypointStatus as KeypointStatus
+from .layouts.skeleton_3d import Skeleton as Skeleton
 from .recording import RetrievalReport as RetrievalReport
 from .recording import retrieve_recording as retrieve_recording
 from .retriever import Retriever as Retriever

@@ -13,13 +13,21 @@ BoolArray = NDArray[np.bool_]
 
 
 def median(values: FloatArray) -> float:
-    """Give the median of some values, at least one and all finite.
+    """Median of the finite ones among some values, shape (n,); NaN if there is none.
 
-    A fifth of the time of numpy's, which is made for large arrays. Shape (n,).
+    In a fifth of the time of numpy's, which is made for large arrays.
     """
-    ordered = np.sort(values)
+    ordered = np.sort(values[np.isfinite(values)])
     middle = len(ordered) // 2
+    if not len(ordered):
+        return float("nan")
     return float(ordered[middle] if len(ordered) % 2 else (ordered[middle - 1] + ordered[middle]) / 2.0)
+
+
+def in_space(rays: FloatArray, depths: FloatArray) -> FloatArray:
+    """Points on viewing rays x/z, y/z, shape (n, 2), at depths [m], shape (n,). Shape (n, 3)."""
+    points: FloatArray = np.column_stack([rays, np.ones(len(rays))]) * depths[:, None]
+    return points
 
 
 def frozen(array: FloatArray) -> FloatArray:

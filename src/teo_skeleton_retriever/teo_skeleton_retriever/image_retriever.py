@@ -26,12 +26,11 @@ from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
 # rooms of up to 4 m, a thousand times too near or a hundred too far in any.
 _NEAREST = 0.4
 _FARTHEST = 50.0
-_EVERY = (
-    8  # [px] Every eighth of every eighth row says how much is known and where the middle lies, in 0.1 ms.
-)
+# [px] Every eighth of every eighth row says how much is known and where the middle lies, in 0.1 ms.
+_EVERY = 8
 
 
-def depth_summary(depth: DepthArray) -> tuple[float, float]:
+def _depth_summary(depth: DepthArray) -> tuple[float, float]:
     """Give the part of an image's pixels that have a depth, 0 to 1, and their median [m]; NaN if none has.
 
     Args:
@@ -216,7 +215,7 @@ class ImageRetriever:
             DetectionFrame(stamp=image.stamp, people=people, depth=image.depth, camera=image.camera)
         )
         self.known_ids = frozenset(skeleton.track_id for skeleton in skeletons)
-        share, median = depth_summary(image.depth)
+        share, median = _depth_summary(image.depth)
         return Retrieved(
             people,
             skeletons,

@@ -5,11 +5,10 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
-from teo_skeleton_retriever.arrays import BoolArray, FloatArray, median
+from teo_skeleton_retriever.arrays import BoolArray, FloatArray, in_space, median
 from teo_skeleton_retriever.depth.body_depth import BodyDepth, BodyDepths, WristView
 from teo_skeleton_retriever.depth.depth_lookup import DepthLookup, Surfaces, ViewingRays, viewing_rays
 from teo_skeleton_retriever.depth.girdle_depth import by_outline
@@ -41,6 +40,7 @@ from teo_skeleton_retriever.layouts.person_layout import (
     JUMP,
     KEYPOINTS,
     LEFT_HAND,
+    PART_ROWS,
     PIXEL,
     RADIUS,
     RIGHT_HAND,
@@ -60,21 +60,11 @@ _HAND_SHARE = 0.6  # of the greatest sigma: a finger that may be half a hand awa
 _SURE = 0.02  # [m] standard deviation across the ray of a joint that is plainly seen, which `BIAS` stands for
 _CARRIED = 0.05  # [m] standard deviation of a hand that is not seen and goes with its wrist: it turns
 _GUESSED = 0.025  # [m] standard deviation that is added to a keypoint that an arm hides
-# Elbows at which the own forearm lies, wrists at which the own hand does as well: only from farther before
-# them than their own skin do these hide them.
+# Elbows, before which the own forearm may lie, and wrists, before which the own hand may lie as well.
 _OWN_LIMBS = {row: rows[1 : i + 1] for rows in ARMS.values() for i, row in enumerate(rows) if i}
 _HEAD_AND_FACE = [*HEAD, *range(FACE.start, FACE.stop)]
 _OF_HEAD, _OF_FACE = slice(0, len(HEAD)), slice(len(HEAD), None)
 _ON_HANDS = (np.arange(KEYPOINTS) >= LEFT_HAND.start) & (np.arange(KEYPOINTS) < RIGHT_HAND.stop)
-
-
-class PersonParts(NamedTuple):
-    """The keypoints of one person at one time."""
-
-    body: Keypoints3D
-    left_hand: Keypoints3D
-    right_hand: Keypoints3D
-    face: Keypoints3D
 
 
 class PersonEstimator:
@@ -82,7 +72,8 @@ class PersonEstimator:
 
     def __init__(self, parameters: RetrieverParameters) -> None:
         self._parameters = parameters
-        self._size = BodySize(averaging=parameters.detector == "mediapipe")
+        self._by_mediapipe = parameters.detector == "mediapipe"
+        self._size = BodySize(averaging=self._by_mediapipe)
         self._body = BodyDepth(parameters)
         self._lookup = DepthLookup(nearest=parameters.min_depth, farthest=parameters.max_depth)
         self._filter = KeypointFilter(
@@ -95,13 +86,16 @@ class PersonEstimator:
         self._confidence = np.zeros(KEYPOINTS)
         self._from_wrist = np.full((KEYPOINTS, 3), np.nan)  # of the hands' keypoints, as last seen [m]
 
-    def step(self, frame: DetectionFrame, person: Person2D, distance: float) -> PersonParts:
+    def step(self, frame: DetectionFrame, person: Person2D, distance: float) -> dict[str, Keypoints3D]:
         """Take one image.
 
         Args:
             frame: The image.
             person: Who was seen in it.
             distance: Of the person along the optical axis [m].
+
+        Returns:
+            The keypoints of each part of a `Skeleton`.
         """
         before = self._filter.predict(frame.stamp)
         near = np.where(np.isfinite(before.depth), before.depth, distance)
@@ -119,10 +113,10 @@ class PersonEstimator:
         optimised = np.zeros(KEYPOINTS, dtype=bool)
         fits = self._fit_hands(person, seen, surfaces, before)
         hands = {side: fit.points for side, fit in fits.items()}
-        trunk = surfaces.part(GIRDLE)
         arms = occluders(before.part(BODY).points, hands)
-        trunk = trunk.without(arms.shown(seen.rays[GIRDLE], trunk.depth))
-        body = self._find_body(seen, surfaces.replaced(GIRDLE, trunk), before, fits)
+        shown = np.zeros(surfaces.depth.shape, dtype=bool)
+        shown[GIRDLE] = arms.shown(seen.rays[GIRDLE], surfaces.depth[GIRDLE])
+        body = self._find_body(seen, surfaces.without(shown), before, fits)
         depth[BODY], sigma[BODY], optimised[BODY] = body.depths, body.sigma, body.optimised
         rays = np.concatenate([body.rays, seen.rays[BODY.stop :]])
         for side, fit in fits.items():
@@ -132,7 +126,7 @@ class PersonEstimator:
             rays[HANDS[side]] = fit.points[:, :2] / fit.points[:, 2:]
             depth[HANDS[side]], sigma[HANDS[side]] = fit.points[:, 2] + moved, fit.sigma
             optimised[HANDS[side]] = ~fit.measured
-        arms = occluders(_in_space(body.rays, body.depths), hands)
+        arms = occluders(in_space(body.rays, body.depths), hands)
         free = surfaces.part(_HEAD_AND_FACE)
         free = free.without(arms.shown(seen.rays[_HEAD_AND_FACE], free.depth))
         head = self._find_head(free, before, body)
@@ -143,12 +137,12 @@ class PersonEstimator:
             depth[FACE], sigma[FACE] = face.depths, face.sigma
             optimised[FACE] = ~face.measured
         near = np.where(np.isfinite(depth), depth, distance)
-        hidden = np.isfinite(arms.before(rays, near, arms.of(_OWN_LIMBS)))
+        hidden = arms.hide(rays, near, _OWN_LIMBS)
         hidden[HEAD] |= head.hidden
         hidden[_ON_HANDS] = False  # a hand before a hand is the fit's affair
         doubt = np.zeros(KEYPOINTS)
         doubt[BODY] = np.maximum(body.across - _SURE, 0.0)
-        if self._parameters.detector == "mediapipe":
+        if self._by_mediapipe:
             doubt += np.where(_ON_HANDS & seen.seen, extra_hand_sigma(seen.confidence), 0.0)
         across = np.hypot(np.hypot(ACROSS, doubt) / near, PIXEL / frame.camera.fx)
         output = self._filter.step(
@@ -169,14 +163,14 @@ class PersonEstimator:
             memory=self._confidence,
         )
         found = self._with_held_hands(found)
-        return PersonParts(*(found.part(rows) for rows in (BODY, LEFT_HAND, RIGHT_HAND, FACE)))
+        return {part: found.part(rows) for part, rows in PART_ROWS.items()}
 
     def _find_head(self, free: Surfaces, before: FilterOutput, body: BodyDepths) -> HeadDepths:
         """Find the head in surfaces of head and face that are not an arm's."""
         behind = np.zeros(len(HEAD))
         if self._parameters.skin_offset:
             behind = BODY_DEPTHS[HEAD] * self._size.scale
-        if self._parameters.detector == "mediapipe":
+        if self._by_mediapipe:
             behind[EARS] += EAR_BEHIND
         return head_depths(
             free.part(_OF_HEAD),
@@ -188,7 +182,7 @@ class PersonEstimator:
 
     def _reach(self, before: FilterOutput, distance: float) -> tuple[float, float]:
         """Least and greatest depth of any keypoint of the person [m]."""
-        trunk = _middle(before.depth[_TRUNK])
+        trunk = median(before.depth[_TRUNK])
         middle = trunk if np.isfinite(trunk) else distance
         return middle - _BEFORE_TRUNK, middle + _BEHIND_TRUNK
 
@@ -199,7 +193,7 @@ class PersonEstimator:
         outlined = np.zeros(2, dtype=bool)
         keypoints = np.zeros((KEYPOINTS, 3))
         keypoints[BODY] = as_body_25(person.body)
-        if self._parameters.detector == "mediapipe":
+        if self._by_mediapipe:
             keypoints[BODY] = corrected_body(keypoints[BODY])
             keypoints[_SHOULDERS, :2] = widened(keypoints[_SHOULDERS, :2], self._size.widening)
             keypoints[BODY], outlined = by_outline(
@@ -209,13 +203,9 @@ class PersonEstimator:
                 focal=frame.camera.fx,
                 scale=self._size.scale,
             )
-        for rows, part in (
-            (LEFT_HAND, person.left_hand),
-            (RIGHT_HAND, person.right_hand),
-            (FACE, person.face),
-        ):
-            if len(part):
-                keypoints[rows] = part
+        for part in ("left_hand", "right_hand", "face"):
+            if len(getattr(person, part)):
+                keypoints[PART_ROWS[part]] = getattr(person, part)
         return viewing_rays(keypoints, frame.camera, self._parameters.min_confidence), bool(outlined.all())
 
     def _fit_hands(
@@ -229,18 +219,18 @@ class PersonEstimator:
                 seen.rays[HANDS[side]],
                 surfaces.part(HANDS[side]),
                 worlds[side],
-                _middle(before.depth[HANDS[side]]),
+                median(before.depth[HANDS[side]]),
                 float(before.depth[ARMS[side][2]]),
             )
             for side in sides
         ]
         if self._parameters.fit_hands:
-            bones = MEDIAPIPE_HAND_BONES if self._parameters.detector == "mediapipe" else HAND_BONES
+            bones = MEDIAPIPE_HAND_BONES if self._by_mediapipe else HAND_BONES
             fits = fit_hands(views, self._size.hand_scale, bones)
         else:
             fits = [_unfitted(view, self._size.hand_scale) for view in views]
         found = {side: fit for side, fit in zip(sides, fits, strict=True) if fit is not None}
-        if self._parameters.detector == "mediapipe":
+        if self._by_mediapipe:
             return {
                 side: fit._replace(points=corrected_hand(fit.points, left=side == "L"))
                 for side, fit in found.items()
@@ -281,18 +271,7 @@ class PersonEstimator:
 def _unfitted(hand: HandView, scale: float) -> HandFit:
     nearest = hand.surfaces.nearest()
     depths = nearest.depth + scale * HAND_DEPTHS
-    points = np.column_stack([hand.rays, np.ones(len(depths))]) * depths[:, None]
-    return HandFit(points, nearest.sigma, np.isfinite(depths))
-
-
-def _in_space(rays: FloatArray, depths: FloatArray) -> FloatArray:
-    points: FloatArray = np.column_stack([rays, np.ones(len(rays))]) * depths[:, None]
-    return points
-
-
-def _middle(values: FloatArray) -> float:
-    known = values[np.isfinite(values)]
-    return median(known) if len(known) else float("nan")
+    return HandFit(in_space(hand.rays, depths), nearest.sigma, np.isfinite(depths))
 
 
 def _keypoints_of(

@@ -11,13 +11,7 @@ from teo_skeleton_retriever.depth.depth_lookup import DepthLookup, viewing_rays
 from teo_skeleton_retriever.detectors.detector import DetectionFrame
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D, as_body_25
-from teo_skeleton_retriever.layouts.skeleton_3d import (
-    BodyFrame,
-    Keypoints3D,
-    KeypointStatus,
-    Skeleton,
-    body_frame,
-)
+from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton, frame_of_body
 from teo_skeleton_retriever.person_estimator import PersonEstimator
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
 from teo_skeleton_retriever.tracking.person_tracker import PersonTracker, SignerChoice
@@ -69,15 +63,12 @@ class Retriever:
             self._skeleton(frame, people[i], i, float(seen[i][2]), is_signer=i == signer) for i in people
         ]
         skeletons += [
-            self._skeleton(frame, Person2D(), i, float(remembered[i].position[2]), is_signer=i == self.signer)
+            self._skeleton(
+                frame, Person2D(), i, float(remembered[i].position[2]), is_signer=i == self._signer.signer
+            )
             for i in held
         ]
         return tuple(sorted(skeletons, key=lambda skeleton: skeleton.track_id))
-
-    @property
-    def signer(self) -> int | None:
-        """Id of the signer, seen or waited for; None if there is none."""
-        return self._signer.signer
 
     @property
     def newcomer_images(self) -> int:
@@ -86,10 +77,7 @@ class Retriever:
 
     def lock_signer(self, track_id: int | None) -> None:
         """Follow this person as the signer and nobody else; None chooses by the rule again."""
-        if track_id is None:
-            self._signer.unlock()
-        else:
-            self._signer.lock(track_id)
+        self._signer.lock(track_id)
 
     def _positions(self, frame: DetectionFrame, person: Person2D) -> FloatArray:
         """Give about where a person's trunk may be, the likeliest first [m]; NaN if no depth tells.
@@ -122,11 +110,8 @@ class Retriever:
         return Skeleton(
             track_id=track_id,
             is_signer=is_signer,
-            body=parts.body,
-            left_hand=parts.left_hand,
-            right_hand=parts.right_hand,
-            face=parts.face,
-            body_frame=_frame_of(parts.body.points),
+            body_frame=frame_of_body(parts["body"].points),
+            **parts,
         )
 
 
@@ -140,13 +125,3 @@ def _middles(depths: FloatArray) -> list[float]:
     if depths.max() - depths.min() > _TORN:
         middles += [median(depths[depths > between]), median(depths[depths <= between])]
     return middles
-
-
-def _frame_of(body: FloatArray) -> BodyFrame | None:
-    row = BODY_25.index
-    return body_frame(
-        left_shoulder=body[row["LShoulder"]],
-        right_shoulder=body[row["RShoulder"]],
-        left_hip=body[row["LHip"]],
-        right_hip=body[row["RHip"]],
-    )

@@ -107,16 +107,16 @@ def _hand(wrist: np.ndarray, forearm: np.ndarray, sign: float, curl: float) -> n
     return wrist + points
 
 
-def capsules(person: Pose, size: float = 1.0) -> np.ndarray:
+def capsules(person: Pose) -> np.ndarray:
     """Ends and radius of each capsule [m]. Shape (n, 7)."""
     body, found = person.body, []
 
     def add(a: np.ndarray, b: np.ndarray, radius: float) -> None:
-        found.append([*a, *b, radius * size])
+        found.append([*a, *b, radius])
 
     for x in (-0.4, -0.15, 0.15, 0.4):  # trunk, as deep as its radius
         shift = (body[ROW["LShoulder"]] - body[ROW["RShoulder"]]) * x
-        add(body[ROW["Neck"]] + shift + [0, 0.06 * size, 0.02], body[ROW["MidHip"]] + shift * 0.8, 0.085)
+        add(body[ROW["Neck"]] + shift + [0, 0.06, 0.02], body[ROW["MidHip"]] + shift * 0.8, 0.085)
     head = (body[ROW["REar"]] + body[ROW["LEar"]]) / 2
     add(head, head, 0.09)
     add(head, body[ROW["Neck"]], 0.055)
@@ -133,9 +133,9 @@ def capsules(person: Pose, size: float = 1.0) -> np.ndarray:
     return np.array(found)
 
 
-def render(shapes: np.ndarray, camera: CameraModel = CAMERA, wall: float = 3.0) -> np.ndarray:
-    """Depth along the optical axis [m], by ray casting (Quilez, "Intersectors"). Shape (height, width)."""
-    depth = np.full((camera.height, camera.width), wall)
+def render(shapes: np.ndarray, camera: CameraModel) -> np.ndarray:
+    """Depth [m] before a wall, by ray casting (Quilez, "Intersectors"). Shape (height, width)."""
+    depth = np.full((camera.height, camera.width), 3.0)
     last = [camera.width - 1, camera.height - 1]
     for shape in shapes:
         a, b, radius = shape[:3], shape[3:6], shape[6]
@@ -192,14 +192,13 @@ def person_2d(
         found[list(absent)] = 0.0
         return found
 
-    worlds = [imagined_shape(hand) if imagined else None for hand in (person.left_hand, person.right_hand)]
     return Person2D(
         body=seen(person.body, tuple(range(19, 25))),
         left_hand=seen(person.left_hand),
         right_hand=seen(person.right_hand),
         face=seen(face(person)),
-        left_hand_world=worlds[0],
-        right_hand_world=worlds[1],
+        left_hand_world=imagined_shape(person.left_hand) if imagined else None,
+        right_hand_world=imagined_shape(person.right_hand) if imagined else None,
     )
 
 

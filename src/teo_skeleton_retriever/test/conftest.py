@@ -13,6 +13,22 @@ sys.path.insert(0, str(Path(__file__).parent))  # for helpers that several tests
 
 
 @pytest.fixture
+def bag(tmp_path: Path) -> Path:
+    """A recording of ten images."""
+    import bag_take
+
+    return bag_take.write_ros2(tmp_path / "take", list(bag_take.messages(10)))
+
+
+@pytest.fixture
+def keypoints(tmp_path: Path) -> Path:
+    """What OpenPose sees in it."""
+    import bag_take
+
+    return bag_take.write_keypoints(tmp_path / "keypoints", 10)
+
+
+@pytest.fixture
 def context(domain_id: int) -> Iterator[Any]:
     """ROS, for one test alone."""
     import rclpy  # here, as most tests do without

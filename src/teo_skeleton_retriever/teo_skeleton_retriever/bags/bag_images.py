@@ -16,9 +16,7 @@ from teo_skeleton_retriever.camera.rgbd_image import (
     COLOR_TOPIC,
     DEPTH_TOPIC,
     RgbdImage,
-    camera_of,
-    color_of,
-    depth_of,
+    image_of,
     shows_depth,
     stamp_of,
 )
@@ -40,13 +38,7 @@ class Topics(NamedTuple):
 
 
 def choose_topics(bag: Bag, *, color: str = "", depth: str = "", camera_info: str = "") -> Topics:
-    """Find the topics of a bag by the encodings of their first images.
-
-    Args:
-        bag: To look into.
-        color: Name of the topic; to be found if empty.
-        depth: Likewise.
-        camera_info: Likewise.
+    """Find the topics of a bag by the encodings of their first images, but for those that are named.
 
     Raises:
         TopicError: None or several may be meant.
@@ -178,7 +170,7 @@ class BagImages:
         for pair in pairs:
             self._paired += 1
             try:
-                image = self._image(pair, info)
+                image = image_of(pair.color, pair.depth, info, rectified=self._rectified)
             except RetrieverError as error:
                 self.drop(error)
                 continue
@@ -198,14 +190,6 @@ class BagImages:
         self.reasons[NO_DEPTH] = (
             f"expected a depth image within {self._slop * 1e-9:.3g} s of each colour image, got the nearest "
             f"{gaps[0] * 1e-9:.3f} s away; {advice}"
-        )
-
-    def _image(self, pair: Pair, info: Any) -> RgbdImage:
-        return RgbdImage(
-            stamp=pair.stamp * 1e-9,
-            color=color_of(pair.color),
-            depth=depth_of(pair.depth),
-            camera=camera_of(info, rectified=self._rectified),
         )
 
     def drop(self, error: RetrieverError) -> None:

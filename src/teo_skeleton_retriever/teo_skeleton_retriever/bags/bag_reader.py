@@ -14,23 +14,42 @@ import sqlite3
 import struct
 from collections import Counter
 from collections.abc import Callable, Collection, Iterator
+from functools import cache
 from io import BytesIO
 from pathlib import Path
-from typing import Any, BinaryIO, NamedTuple, Protocol
+from typing import Any, BinaryIO, NamedTuple
 
 import lz4.frame
+from ament_index_python.packages import get_package_share_directory
 from mcap.writer import MCAP0_MAGIC
 from rosbags.rosbag1 import Reader as Ros1Reader
 from rosbags.rosbag2 import Reader as Ros2Reader
-from rosbags.typesys import Stores, get_typestore
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+from rosbags.typesys.store import Typestore
 
 from teo_common import mcap_salvage
 from teo_common.mcap_salvage import McapContent
-from teo_skeleton_retriever.bags.message_types import message_types
 from teo_skeleton_retriever.errors import RetrieverError
 
+_SKELETONS = (
+    "teo_sign_msgs/msg/Keypoint3D",
+    "teo_sign_msgs/msg/Skeleton3D",
+    "teo_sign_msgs/msg/SkeletonArray",
+)
 
-class RawMessage(NamedTuple):
+
+@cache
+def message_types() -> Typestore:
+    """Give the types of messages of ROS 2 and that of the skeletons, for bags."""
+    folder = Path(get_package_share_directory("teo_sign_msgs")) / "msg"
+    store = get_typestore(Stores.ROS2_JAZZY)
+    for name in _SKELETONS:
+        text = (folder / f"{name.rpartition('/')[2]}.msg").read_text(encoding="utf-8")
+        store.register(get_types_from_msg(text, name))
+    return store
+
+
+class _RawMessage(NamedTuple):
     """One message as stored: topic, type ("sensor_msgs/msg/Image"), time of reception [ns], and its bytes."""
 
     topic: str
@@ -39,36 +58,22 @@ class RawMessage(NamedTuple):
     data: bytes
 
 
-class CutOff(Exception):  # noqa: N818  not an error: the expected end of such a file
+class _CutOff(Exception):  # noqa: N818  not an error: the expected end of such a file
     """The file was not read whole; says why."""
 
 
-def salvage(path: Path) -> Iterator[RawMessage]:
-    """Read a file from the front.
-
-    Raises:
-        CutOff: After the last message that can be read, if the file was not read whole.
-    """
-    scans: dict[str, Callable[[Path], Iterator[RawMessage]]] = {
-        ".mcap": _scan_mcap,
-        ".bag": _scan_ros1,
-        ".db3": _scan_sqlite,
-    }
-    yield from scans[path.suffix](path)
-
-
-def _scan_mcap(path: Path) -> Iterator[RawMessage]:
+def _scan_mcap(path: Path) -> Iterator[_RawMessage]:
     content = McapContent()
     try:
         for stored in mcap_salvage.salvage(path, content):
-            yield RawMessage(stored.topic, stored.type, stored.log_time, stored.data)
+            yield _RawMessage(stored.topic, stored.type, stored.log_time, stored.data)
     except mcap_salvage.NotMcapError as error:
-        raise CutOff(str(error)) from None
+        raise _CutOff(str(error)) from None
     faults = [] if content.complete else [content.fault]
     if content.damaged_chunks:
         faults.append(f"{content.damaged_chunks} damaged chunks are left out")
     if faults:
-        raise CutOff("; ".join(faults))
+        raise _CutOff("; ".join(faults))
 
 
 # ROS 1, format 2.0. Source: http://wiki.ros.org/Bags/Format/2.0
@@ -79,10 +84,10 @@ _TIME = struct.Struct("<II")
 _LONGEST = 1 << 31  # of a header or of data [bytes]; more is garbage
 
 
-def _scan_ros1(path: Path) -> Iterator[RawMessage]:
+def _scan_ros1(path: Path) -> Iterator[_RawMessage]:
     with path.open("rb") as stream:
         if stream.read(len(_MAGIC)) != _MAGIC:
-            raise CutOff("not a ROS 1 bag of format 2.0")
+            raise _CutOff("not a ROS 1 bag of format 2.0")
         connections: dict[int, tuple[str, str]] = {}
         while True:
             header, data, whole = _record(stream)
@@ -93,10 +98,10 @@ def _scan_ros1(path: Path) -> Iterator[RawMessage]:
             elif _operation(header) == _CONNECTION and whole:
                 _connect(header, data, connections)
             if not whole:
-                raise CutOff("the file ends within a record")
+                raise _CutOff("the file ends within a record")
 
 
-def _records_of_chunk(chunk: bytes, connections: dict[int, tuple[str, str]]) -> Iterator[RawMessage]:
+def _records_of_chunk(chunk: bytes, connections: dict[int, tuple[str, str]]) -> Iterator[_RawMessage]:
     stream = BytesIO(chunk)
     while True:
         header, data, whole = _record(stream)
@@ -107,7 +112,7 @@ def _records_of_chunk(chunk: bytes, connections: dict[int, tuple[str, str]]) -> 
         elif _operation(header) == _MESSAGE:
             topic, kind = connections.get(_LENGTH.unpack(header[b"conn"])[0], ("", ""))
             seconds, nanoseconds = _TIME.unpack(header[b"time"])
-            yield RawMessage(topic, kind, seconds * 1_000_000_000 + nanoseconds, data)
+            yield _RawMessage(topic, kind, seconds * 1_000_000_000 + nanoseconds, data)
 
 
 def _record(stream: BinaryIO) -> tuple[dict[bytes, bytes] | None, bytes, bool]:
@@ -116,7 +121,7 @@ def _record(stream: BinaryIO) -> tuple[dict[bytes, bytes] | None, bytes, bool]:
     if packed is None:
         return None, b"", True
     if not whole:
-        raise CutOff("the file ends within a record's header")
+        raise _CutOff("the file ends within a record's header")
     data, whole = _sized(stream)
     return _fields(packed), data or b"", whole and data is not None
 
@@ -126,10 +131,10 @@ def _sized(stream: BinaryIO) -> tuple[bytes | None, bool]:
     if not length:
         return None, True
     if len(length) < _LENGTH.size:
-        raise CutOff("the file ends within a record's length")
+        raise _CutOff("the file ends within a record's length")
     expected = _LENGTH.unpack(length)[0]
     if expected > _LONGEST:
-        raise CutOff(f"a record claims {expected} bytes")
+        raise _CutOff(f"a record claims {expected} bytes")
     data = stream.read(expected)
     return data, len(data) == expected
 
@@ -165,10 +170,10 @@ def _unpacked(header: dict[bytes, bytes], data: bytes, whole: bool) -> bytes:
     try:
         return bytes(unpack[compression](data))
     except (KeyError, OSError, ValueError, RuntimeError) as error:
-        raise CutOff(f"a chunk cannot be unpacked: {type(error).__name__} {error}") from None
+        raise _CutOff(f"a chunk cannot be unpacked: {type(error).__name__} {error}") from None
 
 
-def _scan_sqlite(path: Path) -> Iterator[RawMessage]:
+def _scan_sqlite(path: Path) -> Iterator[_RawMessage]:
     try:
         database = sqlite3.connect(f"file:{path}?immutable=1", uri=True)
         # Lets the file be shorter than its first page says; nothing is written, it is opened as immutable.
@@ -176,12 +181,18 @@ def _scan_sqlite(path: Path) -> Iterator[RawMessage]:
         topics = {i: (name, kind) for i, name, kind in database.execute("SELECT id, name, type FROM topics")}
         # In the order of the table, which is that of writing: the index may be among what is missing.
         for i, stamp, data in database.execute("SELECT topic_id, timestamp, data FROM messages"):
-            yield RawMessage(*topics.get(i, ("", "")), stamp, data)
+            yield _RawMessage(*topics.get(i, ("", "")), stamp, data)
     except sqlite3.DatabaseError as error:
-        raise CutOff(str(error)) from None
+        raise _CutOff(str(error)) from None
 
 
-_SUFFIXES = (".mcap", ".db3", ".bag")
+# What reads a file from the front, by its suffix: it raises `_CutOff` after the last message that can be
+# read, if the file was not read whole.
+_SCANS: dict[str, Callable[[Path], Iterator[_RawMessage]]] = {
+    ".mcap": _scan_mcap,
+    ".db3": _scan_sqlite,
+    ".bag": _scan_ros1,
+}
 
 
 class BagMessage(NamedTuple):
@@ -190,17 +201,6 @@ class BagMessage(NamedTuple):
     topic: str
     time: int
     message: Any
-
-
-class _Source(Protocol):
-    """Where the bytes come from. `problem` is filled in while it is read."""
-
-    kinds: dict[str, str]
-    counts: dict[str, int]
-    begins: int
-    problem: str
-
-    def messages(self, topics: Collection[str]) -> Iterator[RawMessage]: ...
 
 
 class Bag:
@@ -218,26 +218,16 @@ class Bag:
         Raises:
             RetrieverError: It does not exist, is no bag, or nothing in it can be read.
         """
-        self._path = path
         self._ros1 = path.suffix == ".bag"
         self._types = get_typestore(Stores.ROS1_NOETIC) if self._ros1 else message_types()
         self._source = _open(path)
         self._unreadable = ""
-
-    @property
-    def kinds(self) -> dict[str, str]:
+        self.kinds = self._source.kinds
         """Type of the messages of each topic, such as "sensor_msgs/msg/Image"."""
-        return dict(self._source.kinds)
-
-    @property
-    def counts(self) -> dict[str, int]:
+        self.counts = self._source.counts
         """Number of messages of each topic."""
-        return dict(self._source.counts)
-
-    @property
-    def begins(self) -> int:
+        self.begins = self._source.begins
         """When its first message was received [ns]."""
-        return self._source.begins
 
     @property
     def problem(self) -> str:
@@ -258,18 +248,18 @@ class Bag:
         """Give the first message of a topic; None if it has none."""
         return next((found.message for found in self.messages([topic])), None)
 
-    def _read(self, raw: RawMessage) -> Any:
+    def _read(self, raw: _RawMessage) -> Any:
         if self._ros1:
             return self._types.deserialize_ros1(raw.data, raw.kind)
         return self._types.deserialize_cdr(raw.data, raw.kind)
 
 
-def _open(path: Path) -> _Source:
+def _open(path: Path) -> _Whole | _Salvaged:
     if not path.exists():
         raise RetrieverError("missing_bag", f"expected a bag, got {path}, which does not exist")
-    if path.is_file() and path.suffix not in _SUFFIXES:
+    if path.is_file() and path.suffix not in _SCANS:
         raise RetrieverError(
-            "no_bag", f"expected the folder of a bag or a file {', '.join(_SUFFIXES)}, got {path.name}"
+            "no_bag", f"expected the folder of a bag or a file {', '.join(_SCANS)}, got {path.name}"
         )
     try:
         if all(_is_finished(file) for file in _files(path)):
@@ -286,7 +276,7 @@ def _open(path: Path) -> _Source:
 def _files(path: Path) -> list[Path]:
     if path.is_file():
         return [path]
-    return sorted(file for file in path.iterdir() if file.suffix in _SUFFIXES)
+    return sorted(file for file in path.iterdir() if file.suffix in _SCANS)
 
 
 def _is_finished(file: Path) -> bool:
@@ -300,7 +290,7 @@ def _is_finished(file: Path) -> bool:
 
 
 class _Whole:
-    """A bag with its index."""
+    """A bag with its index. `problem` is filled in while it is read."""
 
     def __init__(self, path: Path) -> None:
         self._reader = Ros1Reader(path) if path.suffix == ".bag" else Ros2Reader(path)
@@ -310,7 +300,7 @@ class _Whole:
         self.begins = self._reader.start_time
         self.problem = ""
 
-    def messages(self, topics: Collection[str]) -> Iterator[RawMessage]:
+    def messages(self, topics: Collection[str]) -> Iterator[_RawMessage]:
         connections = [one for one in self._reader.connections if one.topic in topics]
         if not connections:
             return
@@ -318,7 +308,7 @@ class _Whole:
         try:
             for connection, time, data in self._reader.messages(connections=connections):
                 count += 1
-                yield RawMessage(connection.topic, connection.msgtype, time, bytes(data))
+                yield _RawMessage(connection.topic, connection.msgtype, time, bytes(data))
         except Exception as error:  # a damaged chunk: whatever its unpacking happens to raise
             self.problem = f"damaged after {count} messages: {type(error).__name__} {error}".strip()
 
@@ -340,11 +330,11 @@ class _Salvaged:
         reasons = "; ".join(dict.fromkeys((reason, *self._faults.values())))
         self.problem = f"cut off, {sum(counts.values())} messages can be read: {reasons}"
 
-    def messages(self, topics: Collection[str]) -> Iterator[RawMessage]:
+    def messages(self, topics: Collection[str]) -> Iterator[_RawMessage]:
         for file in self._files:
             try:
-                for message in salvage(file):
+                for message in _SCANS[file.suffix](file):
                     if not topics or message.topic in topics:
                         yield message
-            except CutOff as fault:
+            except _CutOff as fault:
                 self._faults[file] = str(fault)  # the next file of the bag may be whole

@@ -48,19 +48,6 @@ def _padded(model: str, coefficients: FloatArray) -> FloatArray:
     return np.concatenate([flat, np.zeros(8 - len(flat))])
 
 
-def _distort(points: FloatArray, coefficients: FloatArray) -> FloatArray:
-    """Apply the distortion to normalised coordinates.
-
-    Args:
-        points: x/z, y/z. Shape (n, 2).
-        coefficients: Of `_padded`. Shape (8,).
-
-    Returns:
-        Shape (n, 2).
-    """
-    return _distort_with_jacobian(points, coefficients)[0]
-
-
 def _undistort(points: FloatArray, coefficients: FloatArray) -> FloatArray:
     """Invert `_distort`.
 
@@ -73,7 +60,7 @@ def _undistort(points: FloatArray, coefficients: FloatArray) -> FloatArray:
         points[:, None], np.eye(3), coefficients, None, None, None, _CRITERIA
     )[:, 0]
     with np.errstate(all="ignore"):
-        image, jacobian = _distort_with_jacobian(found, coefficients)
+        image, jacobian = _distort(found, coefficients)
         residual = np.abs(image - points).max(axis=1)
         # Beyond the fold of the polynomial other rays land on the same pixel: there the image is turned over
         # (a negative determinant) or mirrored through the middle (a negative trace).
@@ -83,7 +70,13 @@ def _undistort(points: FloatArray, coefficients: FloatArray) -> FloatArray:
     return found
 
 
-def _distort_with_jacobian(points: FloatArray, coefficients: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _distort(points: FloatArray, coefficients: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Apply the distortion to normalised coordinates; its Jacobian beside it. Shapes (n, 2), (n, 2, 2).
+
+    Args:
+        points: x/z, y/z. Shape (n, 2).
+        coefficients: Of `_padded`. Shape (8,).
+    """
     k1, k2, p1, p2, k3, k4, k5, k6 = coefficients
     x, y = points[:, 0], points[:, 1]
     r2 = x * x + y * y
@@ -212,7 +205,7 @@ class CameraModel:
         pixels = np.full((len(points), 2), np.nan)
         front = points[:, 2] > 0.0
         rays = points[front, :2] / points[front, 2:]
-        pixels[front] = _distort(rays, self.distortion) * [self.fx, self.fy] + [self.cx, self.cy]
+        pixels[front] = _distort(rays, self.distortion)[0] * [self.fx, self.fy] + [self.cx, self.cy]
         return pixels
 
     def rays(self, pixels: FloatArray) -> FloatArray:

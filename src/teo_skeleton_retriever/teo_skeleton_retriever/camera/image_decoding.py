@@ -25,12 +25,17 @@ from teo_skeleton_retriever.errors import RetrieverError
 
 _MILLIMETRE = np.float32(0.001)
 _TYPES = {"16UC1": "u2", "mono16": "u2", "32FC1": "f4"}
+# Encodings of depth in sensor_msgs/Image.
+DEPTH_ENCODINGS = tuple(_TYPES)
 # 67 million: twice 8K; larger sizes come from a corrupt message.
-MAX_PIXELS = 1 << 26
+_MAX_PIXELS = 1 << 26
+
+ColorArray = NDArray[np.uint8]
+Bytes = bytes | bytearray | memoryview | np.ndarray
 
 
 def decode_depth(
-    data: bytes | bytearray | memoryview,
+    data: Bytes,
     *,
     width: int,
     height: int,
@@ -59,17 +64,23 @@ def decode_depth(
             "wrong_encoding", f"expected a depth encoding among {tuple(_TYPES)}, got {encoding!r:.40}"
         )
     kind = np.dtype(_TYPES[encoding]).newbyteorder(">" if big_endian else "<")
-    if width <= 0 or height <= 0 or width * height > MAX_PIXELS:
-        raise RetrieverError("bad_size", f"expected 1 to {MAX_PIXELS} pixels, got {width} x {height}")
-    row = width * kind.itemsize
+    step = _checked_step(data, width, height, kind.itemsize, step)
+    rows = np.ndarray((height, width), dtype=kind, buffer=data, strides=(step, kind.itemsize))
+    return metres(rows.astype(kind.newbyteorder("=")))
+
+
+def _checked_step(data: Bytes, width: int, height: int, pixel: int, step: int) -> int:
+    """Bytes from a row to the next; refuses sizes that do not fit together, of `pixel` bytes a pixel."""
+    if width <= 0 or height <= 0 or width * height > _MAX_PIXELS:
+        raise RetrieverError("bad_size", f"expected 1 to {_MAX_PIXELS} pixels, got {width} x {height}")
+    row = width * pixel
     step = step or row
     if step < row or len(data) < step * (height - 1) + row:
         raise RetrieverError(
             "wrong_length",
             f"expected {height} rows of {row} bytes or more, got {len(data)} bytes with a step of {step}",
         )
-    rows = np.ndarray((height, width), dtype=kind, buffer=data, strides=(step, kind.itemsize))
-    return metres(rows.astype(kind.newbyteorder("=")))
+    return step
 
 
 def metres(image: np.ndarray) -> DepthArray:
@@ -93,10 +104,6 @@ def metres(image: np.ndarray) -> DepthArray:
         depth *= _MILLIMETRE
     depth[~(np.isfinite(depth) & (depth > 0.0))] = np.nan
     return depth
-
-
-ColorArray = NDArray[np.uint8]
-Bytes = bytes | bytearray | memoryview | np.ndarray
 
 
 class _Encoding(NamedTuple):
@@ -154,17 +161,9 @@ def decode_color(data: Bytes, *, width: int, height: int, encoding: str, step: i
             f"expected a colour encoding among {', '.join(COLOR_ENCODINGS)}, got {encoding!r:.40}",
         )
     channels, conversion = _ENCODINGS[encoding]
-    if width <= 0 or height <= 0 or width * height > MAX_PIXELS:
-        raise RetrieverError("bad_size", f"expected 1 to {MAX_PIXELS} pixels, got {width} x {height}")
     if channels == 2 and width % 2:
         raise RetrieverError("bad_size", f"expected an even width in {encoding}, got {width} px")
-    row = width * channels
-    step = step or row
-    if step < row or len(data) < step * (height - 1) + row:
-        raise RetrieverError(
-            "wrong_length",
-            f"expected {height} rows of {row} bytes or more, got {len(data)} bytes with a step of {step}",
-        )
+    step = _checked_step(data, width, height, channels, step)
     image: ColorArray = np.ndarray((height, width, channels), np.uint8, data, strides=(step, channels, 1))
     if conversion is None:
         return np.ascontiguousarray(image)
@@ -208,7 +207,7 @@ def decode_compressed_depth(data: Bytes, message_format: str) -> DepthArray:
         RetrieverError: The format is none of these, or the data are not of the format.
     """
     encoding = message_format.partition(";")[0].strip()
-    if encoding not in ("16UC1", "mono16", "32FC1"):
+    if encoding not in _TYPES:
         raise RetrieverError(
             "wrong_encoding", f"expected '16UC1; ...' or '32FC1; ...', got the format {message_format!r:.60}"
         )
@@ -244,8 +243,8 @@ def _plane_of_rvl(data: Bytes) -> np.ndarray:
     if len(data) < _RVL_SIZE.size:
         raise RetrieverError("wrong_length", f"expected the width and height in 8 bytes, got {len(data)}")
     width, height = _RVL_SIZE.unpack(bytes(data[: _RVL_SIZE.size]))
-    if not 0 < width * height <= MAX_PIXELS:
-        raise RetrieverError("bad_size", f"expected 1 to {MAX_PIXELS} pixels, got {width} x {height}")
+    if not 0 < width * height <= _MAX_PIXELS:
+        raise RetrieverError("bad_size", f"expected 1 to {_MAX_PIXELS} pixels, got {width} x {height}")
     return decode_rvl(bytes(data[_RVL_SIZE.size :]), width * height).reshape(height, width)
 
 

@@ -19,6 +19,7 @@ from teo_skeleton_retriever.arrays import DepthArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.camera.image_decoding import (
     COLOR_ENCODINGS,
+    DEPTH_ENCODINGS,
     ColorArray,
     decode_color,
     decode_compressed_color,
@@ -76,22 +77,19 @@ def read_rgbd_image(color: Path, depth: Path, camera_info: Path) -> RgbdImage:
     Raises:
         RetrieverError: A file cannot be read, or is not what it should be.
     """
-    try:
-        pixels = decode_compressed_color(color.read_bytes())
-    except OSError as error:
-        raise RetrieverError(
-            "unreadable_file", f"expected a colour image in {color}: {error.strerror}"
-        ) from None
+    pixels = decode_compressed_color(_content(color, "a colour image"))
     return RgbdImage(stamp=0.0, color=pixels, depth=_depth(depth), camera=_camera(camera_info))
 
 
-def _depth(path: Path) -> DepthArray:
+def _content(path: Path, what: str) -> bytes:
     try:
-        data = np.frombuffer(path.read_bytes(), np.uint8)
+        return path.read_bytes()
     except OSError as error:
-        raise RetrieverError(
-            "unreadable_file", f"expected a depth image in {path}: {error.strerror}"
-        ) from None
+        raise RetrieverError("unreadable_file", f"expected {what} in {path}: {error.strerror}") from None
+
+
+def _depth(path: Path) -> DepthArray:
+    data = np.frombuffer(_content(path, "a depth image"), np.uint8)
     image = cv2.imdecode(data, cv2.IMREAD_UNCHANGED) if len(data) else None
     if image is None:
         raise RetrieverError("not_an_image", f"expected a depth image in {path}, got {len(data)} other bytes")
@@ -99,8 +97,9 @@ def _depth(path: Path) -> DepthArray:
 
 
 def _camera(path: Path) -> CameraModel:
+    content = _content(path, "camera_info")
     try:
-        info = json.loads(path.read_text(encoding="utf-8"))
+        info = json.loads(content)
         return CameraModel.from_camera_info(
             width=int(info["width"]),
             height=int(info["height"]),
@@ -108,8 +107,6 @@ def _camera(path: Path) -> CameraModel:
             d=np.array(info.get("d", ()), dtype=np.float64),
             distortion_model=str(info.get("distortion_model", "")),
         )
-    except OSError as error:
-        raise RetrieverError("unreadable_file", f"expected camera_info in {path}: {error.strerror}") from None
     except (ValueError, KeyError, TypeError) as error:
         raise RetrieverError(
             "bad_camera_info",
@@ -123,7 +120,6 @@ DEPTH_TOPIC = "camera/aligned_depth_to_color/image_raw"
 CAMERA_INFO_TOPIC = "camera/color/camera_info"
 
 
-_DEPTH_ENCODINGS = ("16UC1", "mono16", "32FC1")
 _NANOSECONDS = 1_000_000_000
 
 
@@ -170,11 +166,25 @@ def depth_of(message: Any) -> DepthArray:
     )
 
 
+def image_of(color: Any, depth: Any, camera_info: Any, *, rectified: bool) -> RgbdImage:
+    """Make an image of a message of colour, one of depth and one of the camera; see `camera_of`.
+
+    Raises:
+        RetrieverError: One cannot be decoded, or they do not fit together.
+    """
+    return RgbdImage(
+        stamp=stamp_of(color) * 1e-9,
+        color=color_of(color),
+        depth=depth_of(depth),
+        camera=camera_of(camera_info, rectified=rectified),
+    )
+
+
 def shows_depth(message: Any) -> bool | None:
     """Tell by its encoding whether an image is one of depth; None if it is neither depth nor colour."""
     if _is_compressed(message):
-        return message.format.partition(";")[0].strip() in _DEPTH_ENCODINGS
-    if message.encoding in _DEPTH_ENCODINGS:
+        return message.format.partition(";")[0].strip() in DEPTH_ENCODINGS
+    if message.encoding in DEPTH_ENCODINGS:
         return True
     return False if message.encoding in COLOR_ENCODINGS else None
 

@@ -4,7 +4,9 @@
 
 from __future__ import annotations
 
+from bisect import insort
 from collections import Counter, deque
+from operator import attrgetter
 from typing import Any, NamedTuple
 
 # Colour images for which there is no depth image near enough.
@@ -28,13 +30,11 @@ class Pair(NamedTuple):
 
     Attributes:
         stamp: Of the colour image [ns].
-        depth_stamp: [ns].
         color: As it was given.
         depth: As it was given.
     """
 
     stamp: int
-    depth_stamp: int
     color: Any
     depth: Any
 
@@ -42,6 +42,9 @@ class Pair(NamedTuple):
 class _Stamped(NamedTuple):
     stamp: int
     item: Any
+
+
+_stamp_of = attrgetter("stamp")  # what waits is kept in the order of stamps, also where one comes late
 
 
 class Synchroniser:
@@ -78,7 +81,7 @@ class Synchroniser:
         if (self._given is not None and stamp <= self._given) or any(c.stamp == stamp for c in self._colors):
             self.dropped[OVERTAKEN] += 1
             return []
-        _insert(self._colors, _Stamped(stamp, color))
+        insort(self._colors, _Stamped(stamp, color), key=_stamp_of)
         return self._match()
 
     def add_depth(self, stamp: int, depth: Any) -> list[Pair]:
@@ -87,7 +90,7 @@ class Synchroniser:
         if any(d.stamp == stamp for d in self._depths):
             self.dropped[NO_COLOR] += 1
             return []
-        _insert(self._depths, _Stamped(stamp, depth))
+        insort(self._depths, _Stamped(stamp, depth), key=_stamp_of)
         return self._match()
 
     def finish(self) -> list[Pair]:
@@ -98,12 +101,11 @@ class Synchroniser:
 
     def _match(self) -> list[Pair]:
         pairs = []
-        while self._colors and self._depths and self._depths[-1].stamp >= self._colors[0].stamp:
-            pair = self._pair(self._colors[0])
-            if pair is not None:
-                pairs.append(pair)
-        while len(self._colors) > self._capacity:
-            # Depth is late by more images than may wait. The nearest there is may still be near enough.
+        # Where depth is late by more images than may wait, the nearest there is may still be near enough.
+        while self._colors and (
+            len(self._colors) > self._capacity
+            or (self._depths and self._depths[-1].stamp >= self._colors[0].stamp)
+        ):
             pair = self._pair(self._colors[0])
             if pair is not None:
                 pairs.append(pair)
@@ -125,7 +127,7 @@ class Synchroniser:
         self.dropped[NO_COLOR] += before
         del self._depths[: before + 1]
         self._given = color.stamp
-        return Pair(color.stamp, nearest.stamp, color.item, nearest.item)
+        return Pair(color.stamp, color.item, nearest.item)
 
     def _note(self, kind: str, stamp: int) -> None:
         """Start anew if the stamps of a kind were set back."""
@@ -138,11 +140,3 @@ class Synchroniser:
         self.dropped[NO_COLOR] += len(self._depths)
         self._colors, self._depths, self._given = [], [], None
         self._latest = {"color": 0, "depth": 0}
-
-
-def _insert(waiting: list[_Stamped], new: _Stamped) -> None:
-    """Keep ascending stamps, also where one comes late."""
-    place = len(waiting)
-    while place and waiting[place - 1].stamp > new.stamp:
-        place -= 1
-    waiting.insert(place, new)

@@ -136,7 +136,10 @@ def _retrieve(
         _complain(f"cannot write {error.filename}: {error.strerror}")
         raise typer.Exit(1) from None
     written = [path for path in (out, video if report.images else None) if path is not None]
-    _tell(_table(report), written, quiet=as_lines)
+    console = _err if as_lines else _out
+    console.print(_table(report))
+    for path in written:
+        console.print(f"wrote {path}", highlight=False, markup=False, soft_wrap=True)
     for complaint in report.complaints:
         _complain(complaint)
     if report.complaints:
@@ -224,13 +227,6 @@ def _shares(counts: Mapping[int, int]) -> str:
     return ", ".join(
         f"{status.name.lower()} {100.0 * counts.get(status, 0) / total:.0f} %" for status in order
     )
-
-
-def _tell(table: Table, written: list[Path], *, quiet: bool) -> None:
-    console = _err if quiet else _out
-    console.print(table)
-    for path in written:
-        console.print(f"wrote {path}", highlight=False, markup=False, soft_wrap=True)
 
 
 def _complain(sentence: str) -> None:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -23,7 +24,7 @@ from teo_skeleton_retriever.compat.original_skeleton import (
 from teo_skeleton_retriever.detectors.detector import DetectionFrame
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25, FACE_70, HAND_21
-from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton, body_frame
+from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton, frame_of_body
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
 from teo_skeleton_retriever.tracking.person_tracker import SignerChoice
 
@@ -39,12 +40,7 @@ class CompatRetriever:
     """
 
     def __init__(self, parameters: RetrieverParameters, original: OriginalParameters | None = None) -> None:
-        """Build a retriever that has seen nobody yet.
-
-        Args:
-            parameters: Of which only those of the choice of the signer matter.
-            original: Of the processing.
-        """
+        """Build a retriever that has seen nobody yet; `parameters` matter for the signer's choice alone."""
         self._original = original or OriginalParameters()
         self._signer = SignerChoice(parameters.signer_rule, parameters.signer_patience)
         self._camera: CameraModel | None = None
@@ -71,10 +67,7 @@ class CompatRetriever:
 
     def lock_signer(self, track_id: int | None) -> None:
         """Follow this person as the signer; None chooses by the rule again."""
-        if track_id is None:
-            self._signer.unlock()
-        else:
-            self._signer.lock(track_id)
+        self._signer.lock(track_id)
 
 
 _GROUPS = {
@@ -165,31 +158,18 @@ def _places(found: Mapping[int, OriginalSkeleton]) -> dict[int, FloatArray]:
 def _skeleton(track_id: int, is_signer: bool, original: OriginalSkeleton) -> Skeleton:
     body = Keypoints3D.lost(len(BODY_25))
     points, pixels, status = body.points.copy(), body.pixels.copy(), body.status.copy()
-    points[_ROWS] = original.points[_SOURCES]
-    pixels[_ROWS] = original.pixels[_SOURCES]
+    points[_ROWS], pixels[_ROWS] = original.points[_SOURCES], original.pixels[_SOURCES]
     known = np.isfinite(points).all(axis=1)
-    updated = np.zeros(len(BODY_25), dtype=bool)
-    updated[_ROWS] = original.updated[_SOURCES]
-    status[known] = KeypointStatus.HELD  # "stale" in the original: where it was last
-    status[known & updated] = KeypointStatus.MEASURED
+    status[_ROWS] = KeypointStatus.HELD  # "stale" in the original: where it was last
+    status[_ROWS[original.updated[_SOURCES]]] = KeypointStatus.MEASURED
+    status[~known] = KeypointStatus.LOST
     confidence = np.where(known, np.nan, 0.0)
-    sigma = np.full((len(BODY_25), 3), np.nan)
-
-    def place(name: str) -> FloatArray:
-        row: FloatArray = points[BODY_25.index[name]]
-        return row
-
     return Skeleton(
         track_id=track_id,
         is_signer=is_signer,
-        body=Keypoints3D(points=points, confidence=confidence, status=status, sigma=sigma, pixels=pixels),
+        body=replace(body, points=points, confidence=confidence, status=status, pixels=pixels),
         left_hand=Keypoints3D.lost(len(HAND_21)),
         right_hand=Keypoints3D.lost(len(HAND_21)),
         face=Keypoints3D.lost(len(FACE_70)),
-        body_frame=body_frame(
-            left_shoulder=place("LShoulder"),
-            right_shoulder=place("RShoulder"),
-            left_hip=place("LHip"),
-            right_hip=place("RHip"),
-        ),
+        body_frame=frame_of_body(points),
     )

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import importlib
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache
 from itertools import pairwise
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -34,7 +34,7 @@ from teo_skeleton_retriever.layouts.person_2d import Person2D
 
 # Fixed in the original's code. With the tolerance on an objective in m^4 it stops some millimetres before the
 # minimum.
-_ORIGINAL_OPTIONS: dict[str, object] = {
+ORIGINAL_OPTIONS: dict[str, object] = {
     "tol": 1e-4,
     "acceptable_iter": 0,
     "mu_strategy": "adaptive",
@@ -42,25 +42,15 @@ _ORIGINAL_OPTIONS: dict[str, object] = {
     "max_iter": 100,
     "max_cpu_time": 0.05,  # [s]
 }
-# The same problem solved to its end: what the fast solve is measured against.
-CONVERGED_OPTIONS: dict[str, object] = _ORIGINAL_OPTIONS | {
-    "tol": 1e-10,
-    "max_iter": 500,
-    "max_cpu_time": 1.0,
-}
 _ACCEPTED = ("Solve_Succeeded", "Solved_To_Acceptable_Level", "Feasible_Point_Found")
 
 
 class IpoptLimbSolver:
     """Moves the depths of a limb so that its lengths hold. One solver serves limbs of any length."""
 
-    def __init__(self, options: dict[str, object] | None = None) -> None:
-        """Build a solver.
-
-        Args:
-            options: Of Ipopt; the original's if None.
-        """
-        self._options = tuple((options or _ORIGINAL_OPTIONS).items())
+    def __init__(self, options: Mapping[str, object] = ORIGINAL_OPTIONS) -> None:
+        """Build a solver with options of Ipopt."""
+        self._options = tuple(options.items())
 
     def solve(self, chain: LimbChain) -> LimbSolution:
         """Solve one limb. Takes about 2 ms."""
@@ -102,15 +92,9 @@ class OriginalMedian:
     Source: `MedianFilter` of iCub's control library.
     """
 
-    def __init__(self, order: int, start: FloatArray) -> None:
-        """Build a filter.
-
-        Args:
-            order: Number of past samples.
-            start: Output until the filter is full. Shape (k,).
-        """
+    def __init__(self, order: int) -> None:
         self._samples: deque[FloatArray] = deque(maxlen=order + 1)
-        self._output = np.array(start, dtype=np.float64)
+        self._output = np.full(3, np.nan)
 
     def restart(self, start: FloatArray) -> None:
         """Forget all samples and show this value until the filter is full again. Shape (k,)."""
@@ -122,11 +106,6 @@ class OriginalMedian:
         self._samples.append(np.array(sample, dtype=np.float64))
         if len(self._samples) == self._samples.maxlen:
             self._output = np.median(np.array(self._samples), axis=0)
-        return self._output.copy()
-
-    @property
-    def output(self) -> FloatArray:
-        """The last output. Shape (k,)."""
         return self._output.copy()
 
 
@@ -142,19 +121,16 @@ class OriginalLimbLength:
 
     def __init__(self, order: int) -> None:
         self._order = order
-        self._count = 0
-        self._median = OriginalMedian(order, np.zeros(1))
+        self._lengths: list[float] = []
+        self.value: float | None = None
+        """The calibrated length [m]; None until then."""
 
     def step(self, length: float) -> None:
         """Take a measured length [m]."""
-        if self._count <= self._order:
-            self._median.step(np.array([length]))
-            self._count += 1
-
-    @property
-    def value(self) -> float | None:
-        """The calibrated length [m]; None until then."""
-        return float(self._median.output[0]) if self._count > self._order else None
+        if self.value is None:
+            self._lengths.append(length)
+            if len(self._lengths) > self._order:
+                self.value = float(np.median(self._lengths))
 
     def too_long(self, length: float) -> bool:
         """Whether a length [m] is more than `_TOO_LONG` times the calibrated one; False before that."""
@@ -164,26 +140,16 @@ class OriginalLimbLength:
 _INDEX = SKELETON_STD.index
 
 
-class LimbSolver(Protocol):
-    """What moves the depths of a limb."""
-
-    def solve(self, chain: LimbChain) -> LimbSolution:
-        """Solve one limb."""
-
-
 class OriginalTrack:
     """One person. `skeleton` is what the original publishes."""
 
-    def __init__(self, camera: CameraModel, parameters: OriginalParameters, solver: LimbSolver) -> None:
+    def __init__(self, camera: CameraModel, parameters: OriginalParameters) -> None:
         self.skeleton = OriginalSkeleton()
         self.pivots = self.skeleton.pivots()
         self._camera = camera
         self._parameters = parameters
-        self._solver = solver
-        start = np.full(3, np.nan)
-        self._medians = [
-            OriginalMedian(parameters.filter_keypoint_order, start) for _ in SKELETON_STD.keypoints
-        ]
+        self._solver = IpoptLimbSolver()
+        self._medians = [OriginalMedian(parameters.filter_keypoint_order) for _ in SKELETON_STD.keypoints]
         self._lengths = {limb: OriginalLimbLength(parameters.filter_limblength_order) for limb in LIMBS}
         self._misses_left = np.zeros(len(SKELETON_STD), dtype=int)
 
@@ -264,22 +230,15 @@ class OriginalRetriever:
     Left out of the original: names given by a face recogniser, the robot's pose, the database it writes to.
     """
 
-    def __init__(
-        self,
-        camera: CameraModel,
-        parameters: OriginalParameters | None = None,
-        solver: LimbSolver | None = None,
-    ) -> None:
+    def __init__(self, camera: CameraModel, parameters: OriginalParameters) -> None:
         """Build a retriever.
 
         Args:
             camera: Of the depth images, `CameraModel.from_field_of_view` for what the original assumes.
-            parameters: The defaults of the original's code if None.
-            solver: Of limbs; Ipopt with the original's options if None.
+            parameters: Of the original.
         """
         self._camera = camera
-        self._parameters = parameters or OriginalParameters()
-        self._solver = solver or IpoptLimbSolver()
+        self._parameters = parameters
         self._tracks: dict[int, OriginalTrack] = {}
         self._last_seen: dict[int, float] = {}
         self._next_id = 0
@@ -307,7 +266,7 @@ class OriginalRetriever:
             if track_id is None:
                 track_id = self._next_id
                 self._next_id += 1
-                self._tracks[track_id] = OriginalTrack(self._camera, self._parameters, self._solver)
+                self._tracks[track_id] = OriginalTrack(self._camera, self._parameters)
             else:
                 del pending[track_id]
             self._tracks[track_id].step(skeleton)

@@ -18,7 +18,7 @@ from teo_skeleton_retriever.arrays import BoolArray, DepthArray, FloatArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25, COCO_18, Layout
-from teo_skeleton_retriever.layouts.person_2d import Person2D, body_25_from_coco_18
+from teo_skeleton_retriever.layouts.person_2d import Person2D, as_body_25
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -133,43 +133,26 @@ SKELETON_STD = Layout(
     tuple((parent, child) for child, parent in PARENTS.items() if parent is not None),
 )
 
-FROM_BODY_25: dict[str, str] = {
-    "Nose": "head",
-    "Neck": "shoulderCenter",
-    "RShoulder": "shoulderRight",
-    "RElbow": "elbowRight",
-    "RWrist": "handRight",
-    "LShoulder": "shoulderLeft",
-    "LElbow": "elbowLeft",
-    "LWrist": "handLeft",
-    "MidHip": "hipCenter",
-    "RHip": "hipRight",
-    "RKnee": "kneeRight",
-    "RAnkle": "ankleRight",
-    "LHip": "hipLeft",
-    "LKnee": "kneeLeft",
-    "LAnkle": "ankleLeft",
-    "LBigToe": "footLeft",
-    "RBigToe": "footRight",
+FROM_BODY_25: dict[str, str] = {"Nose": "head", "Neck": "shoulderCenter", "MidHip": "hipCenter"} | {
+    f"{side[0]}{joint}": f"{tag}{side}"
+    for side in ("Right", "Left")
+    for joint, tag in (
+        *(("Shoulder", "shoulder"), ("Elbow", "elbow"), ("Wrist", "hand")),
+        *(("Hip", "hip"), ("Knee", "knee"), ("Ankle", "ankle"), ("BigToe", "foot")),
+    )
 }
 
 # What stands in where the keypoint of `FROM_BODY_25` was not seen.
-FALLBACKS: dict[str, str] = {"footLeft": "LSmallToe", "footRight": "RSmallToe"}
+_FALLBACKS: dict[str, str] = {"footLeft": "LSmallToe", "footRight": "RSmallToe"}
 
 # Where a centre was not seen itself, it is put between these two, without a pixel.
-MIDPOINTS: dict[str, tuple[str, str]] = {
+_MIDPOINTS: dict[str, tuple[str, str]] = {
     "shoulderCenter": ("shoulderLeft", "shoulderRight"),
     "hipCenter": ("hipLeft", "hipRight"),
 }
 
 # People are told apart by the pixels of these; a skeleton with neither is refused.
 _PIVOTS = ("shoulderCenter", "hipCenter")
-
-# Limbs whose length is calibrated, each named by its far end.
-LIMBS: tuple[str, ...] = (
-    *("elbowLeft", "handLeft", "elbowRight", "handRight"),
-    *("kneeLeft", "ankleLeft", "footLeft", "kneeRight", "ankleRight", "footRight"),
-)
 
 # Chains whose depths are optimised together.
 CHAINS: tuple[tuple[str, ...], ...] = (
@@ -178,6 +161,8 @@ CHAINS: tuple[tuple[str, ...], ...] = (
     ("hipLeft", "kneeLeft", "ankleLeft", "footLeft"),
     ("hipRight", "kneeRight", "ankleRight", "footRight"),
 )
+# Limbs whose length is calibrated, each named by its far end.
+LIMBS = tuple(tag for chain in CHAINS for tag in chain[1:])
 
 
 class BodyPlanes(NamedTuple):
@@ -290,7 +275,7 @@ def detect(
     body = _body_25(person.body)
     pixels, points = _in_space(body, depth, camera, parameters.keys_recognition_confidence)
     sources = {tag: [name] for name, tag in FROM_BODY_25.items()}
-    for tag, name in FALLBACKS.items():
+    for tag, name in _FALLBACKS.items():
         sources[tag].append(name)
     for tag, names in sources.items():
         for name in names:
@@ -298,7 +283,7 @@ def detect(
             if np.isfinite(points[row]).all():
                 _put(skeleton, tag, points[row], pixels[row])
                 break
-    for tag, (left, right) in MIDPOINTS.items():
+    for tag, (left, right) in _MIDPOINTS.items():
         pair = [SKELETON_STD.index[left], SKELETON_STD.index[right]]
         if not skeleton.updated[SKELETON_STD.index[tag]] and skeleton.updated[pair].all():
             _put(skeleton, tag, skeleton.points[pair].mean(axis=0), np.full(2, np.nan))
@@ -318,7 +303,7 @@ def _body_25(body: FloatArray) -> FloatArray:
     if len(body) == len(BODY_25):
         return body
     if len(body) == len(COCO_18):
-        converted = body_25_from_coco_18(body)
+        converted = as_body_25(body)
         # The original knows no mid-hip in COCO: the centre comes from the hips in space, without a pixel.
         converted[BODY_25.index["MidHip"]] = 0.0
         return converted

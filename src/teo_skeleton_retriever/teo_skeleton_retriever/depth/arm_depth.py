@@ -84,8 +84,7 @@ class ArmSolver:
     """Solves arms. Not safe to share between threads, as the limb solver."""
 
     def __init__(self) -> None:
-        self._solver = FastLimbSolver()
-        self._solver.prepare(3)
+        self._solver = FastLimbSolver(joints=3)
 
     def solve(self, arms: Sequence[Arm]) -> list[ArmSolution | None]:
         """Find each arm's solution of least cost; None if its shoulder has no depth or none converges.

@@ -5,12 +5,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from typing import NamedTuple
 
 import numpy as np
 
-from teo_skeleton_retriever.arrays import BoolArray, FloatArray, median
+from teo_skeleton_retriever.arrays import BoolArray, FloatArray, in_space, median
 from teo_skeleton_retriever.depth.arm_depth import Arm, ArmSolution, ArmSolver
 from teo_skeleton_retriever.depth.depth_lookup import Surfaces, ViewingRays
 from teo_skeleton_retriever.depth.girdle_depth import girdle_depths
@@ -62,15 +62,6 @@ class WristView(NamedTuple):
     """its standard deviation [m]"""
     certain: bool
     """whether so much of the hand was measured that nothing hides it"""
-
-
-class _ElbowView(NamedTuple):
-    """What is seen around an elbow."""
-
-    along: float
-    """standard deviation along the upper arm, in the image [m]"""
-    depths: FloatArray
-    """of the elbow if its skin is each of the surfaces there [m]; NaN where there are fewer. Shape (3,)"""
 
 
 class BodyDepths(NamedTuple):
@@ -141,24 +132,20 @@ class BodyDepth:
         girdle = girdle_depths(
             surfaces.part(GIRDLE),
             behind[GIRDLE],
-            head=_head(depth),
+            head=median(depth[_HEAD]),
             expected=before.depth[GIRDLE],
             expected_sigma=before.sigma[GIRDLE, 2],
         )
         depth[GIRDLE], replaced[GIRDLE] = girdle.depth, girdle.hidden
         own = np.hypot(girdle.sigma, np.hypot(_SKIN_SIGMA, slanted[GIRDLE]))
         sigma[GIRDLE] = np.where(girdle.hidden, girdle.sigma, own)
-        points = np.column_stack([rays, np.ones(_N)]) * depth[:, None]
+        points = in_space(rays, depth)
         _reject_long_legs(depth, points, size)
         points[replaced] = np.nan
         found = BodyDepths(rays, depth, across, sigma, points, replaced)
         if self._parameters.optimise_limbs:
-            certain = {side: side in wrists and wrists[side].certain for side in ARMS}
-            elbows = {
-                side: _ElbowView(along[side], surfaces.depth[row] + behind[row])
-                for side, (_, row, _) in ARMS.items()
-            }
-            self._solve_arms(elbows, certain, found, before, size)
+            certain = {side for side, view in wrists.items() if view.certain}
+            self._solve_arms(found, along, surfaces.depth + behind[:, None], certain, before, size)
         return found
 
     def _behind_skin(self, before: FilterOutput, size: BodySize) -> tuple[FloatArray, FloatArray]:
@@ -185,29 +172,39 @@ class BodyDepth:
 
     def _solve_arms(
         self,
-        elbows: Mapping[str, _ElbowView],
-        certain: Mapping[str, bool],
         found: BodyDepths,
+        along: Mapping[str, float],
+        by_surface: FloatArray,
+        certain: Collection[str],
         before: FilterOutput,
         size: BodySize,
     ) -> None:
-        """Solve both arms and enter their depths."""
+        """Solve both arms and enter their depths.
+
+        Args:
+            found: By what is seen; changed.
+            along: Standard deviation of each elbow along the upper arm, in the image [m].
+            by_surface: Depths of the joints if each surface is their skin [m]; NaN for none. Shape (25, 3).
+            certain: Arms whose hand is surely not hidden.
+            before: What the images before let expect.
+            size: Of the person.
+        """
         lengths, sigmas = zip(*(size.length(limb) for limb in ("upper arm", "forearm")), strict=True)
         readings: list[tuple[str, Arm]] = []
         for side, rows in ARMS.items():
             arm = Arm(
                 rays=found.rays[rows],
                 across=found.across[rows],
-                elbow_along=elbows[side].along,
+                elbow_along=along[side],
                 measured=found.depths[rows],
                 sigma=found.sigma[rows],
-                certain=np.array([False, False, certain[side]]),
+                certain=np.array([False, False, side in certain]),
                 expected=before.depth[rows],
                 expected_sigma=before.sigma[rows, 2],
                 lengths=np.array(lengths),
                 length_sigma=np.array(sigmas),
             )
-            readings += [(side, reading) for reading in _readings(arm, elbows[side].depths)]
+            readings += [(side, reading) for reading in _readings(arm, by_surface[rows[1]])]
         solved = self._arms.solve([reading for _, reading in readings])
         for side, rows in ARMS.items():
             solution = _likeliest(one for (of, _), one in zip(readings, solved, strict=True) if of == side)
@@ -238,21 +235,9 @@ def _likeliest(solutions: Iterable[ArmSolution | None]) -> ArmSolution | None:
 
 
 def _part_across(forearm: FloatArray, depth: float, size: BodySize) -> float:
-    """Part of a forearm's length that is seen across the view; 1 if its depth is not known.
-
-    Args:
-        forearm: x/z, y/z of elbow and wrist. Shape (2, 2).
-        depth: About where it is [m].
-        size: Of the person.
-    """
+    """Part of a forearm's length, x/z, y/z of both ends, seen across the view; 1 if its depth is unknown."""
     seen = math.dist(*forearm) * depth / size.length("forearm")[0]
     return seen if math.isfinite(seen) else 1.0
-
-
-def _head(depth: FloatArray) -> float:
-    """Depth of nose and eyes [m]; NaN if not known."""
-    known = depth[_HEAD][np.isfinite(depth[_HEAD])]
-    return median(known) if len(known) else math.nan
 
 
 def _reject_long_legs(depth: FloatArray, points: FloatArray, size: BodySize) -> None:

@@ -57,9 +57,8 @@ def viewing_rays(keypoints: FloatArray, camera: CameraModel, min_confidence: flo
 
 
 _MAD_TO_SIGMA = 1.4826  # of a normal distribution
-_RINGS = (
-    4  # samples from the centre of a disc to its edge: 49 in all, enough for a median to a tenth of the noise
-)
+# Samples from the centre of a disc to its edge: 49 in all, enough for a median to a tenth of the noise.
+_RINGS = 4
 _LAYERS = 3  # surfaces told apart around a keypoint: a hand, the arm or chest behind it, the wall
 
 
@@ -83,8 +82,6 @@ class DepthSamples(NamedTuple):
     """[m]; NaN where nothing was measured around. Shape (n,)"""
     sigma: FloatArray
     """standard deviation along the optical axis [m]; NaN likewise. Shape (n,)"""
-    support: FloatArray
-    """share of the measured pixels around that belong to the surface, 0 to 1. Shape (n,)"""
 
 
 class Surfaces(NamedTuple):
@@ -101,13 +98,6 @@ class Surfaces(NamedTuple):
         """Keep some of the keypoints."""
         return Surfaces(self.depth[rows], self.sigma[rows], self.support[rows])
 
-    def replaced(self, rows: list[int], others: Surfaces) -> Surfaces:
-        """Put others in the place of those of some keypoints."""
-        new = Surfaces(*(values.copy() for values in self))
-        for values, those in zip(new, others, strict=True):
-            values[rows] = those
-        return new
-
     def between(self, near: float, far: float) -> Surfaces:
         """Drop surfaces that are nearer or farther [m]; a NaN bound drops none."""
         with np.errstate(invalid="ignore"):
@@ -123,7 +113,7 @@ class Surfaces(NamedTuple):
 
     def nearest(self) -> DepthSamples:
         """Choose the nearest: keypoints lie on the body, and what is behind its contour is background."""
-        return DepthSamples(self.depth[:, 0], self.sigma[:, 0], self.support[:, 0])
+        return DepthSamples(self.depth[:, 0], self.sigma[:, 0])
 
     def closest(self, expected: FloatArray) -> DepthSamples:
         """Choose the surface closest to an expected depth, so that a hand before an elbow does not pull it.
@@ -134,7 +124,7 @@ class Surfaces(NamedTuple):
         misfit = np.abs(self.depth - np.where(np.isfinite(expected), expected, 0.0)[:, None])
         best = np.argmin(np.where(np.isfinite(misfit), misfit, np.inf), axis=1)
         rows = np.arange(len(best))
-        return DepthSamples(self.depth[rows, best], self.sigma[rows, best], self.support[rows, best])
+        return DepthSamples(self.depth[rows, best], self.sigma[rows, best])
 
 
 # [px] A disc is no smaller, as single pixels are holes or flying pixels, and no larger. The largest is looked
@@ -150,12 +140,7 @@ class DepthLookup:
     """Splits the depths in a disc around each keypoint into surfaces."""
 
     def __init__(self, *, nearest: float, farthest: float) -> None:
-        """Set what counts as measured.
-
-        Args:
-            nearest: Nearer is not measured but noise [m].
-            farthest: Farther is background [m].
-        """
+        """Set what counts as measured: nearer is noise, farther is background [m]."""
         self._nearest = nearest
         self._farthest = farthest
 

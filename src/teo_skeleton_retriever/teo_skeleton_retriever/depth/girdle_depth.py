@@ -130,10 +130,8 @@ _ELBOWS = [BODY_25.index["RElbow"], BODY_25.index["LElbow"]]
 # deviation 0.007), and how far the outline is looked for from where the detector sees the joint.
 _TO_OUTLINE, _LOOKED_AT = 0.049, 0.14
 _CLEAR = 0.03  # [m] of what is looked at that has to be beyond the outline: else the body goes on
-_BEFORE, _BEHIND = (
-    0.20,
-    0.15,
-)  # [m] from the joint's depth: what is nearer hides it, what is farther is not it
+# [m] From the joint's depth: what is nearer hides it, what is farther is not it.
+_BEFORE, _BEHIND = 0.20, 0.15
 _OUTWARDS = 0.07  # [m] of an elbow beside its shoulder: then the arm is seen in place of the outline
 _OUTLINE_TURNED = 0.12  # [m] between both depths: of who is turned by 20 deg it is another outline
 _FARTHEST = 0.05  # [m] from where the detector sees the joint: more is a hole in the depth, or a coat

@@ -47,12 +47,7 @@ for _i in range(1, _KEYPOINTS):
 
 
 def imagined_bones(world: FloatArray, lengths: FloatArray) -> FloatArray:
-    """Bones of the estimated hand, scaled to the person's bone lengths [m]. Shape (20, 3).
-
-    Args:
-        world: The imagined keypoints, of any size. Shape (21, 3).
-        lengths: Of the person's bones [m]. Shape (20,).
-    """
+    """Bones of imagined keypoints of any size, shape (21, 3), as long as the person's [m]. Shape (20, 3)."""
     bones = world[CHILD] - world[PARENT]
     size = np.sqrt((bones * bones).sum(axis=1))
     shaped: FloatArray = bones * (lengths / np.maximum(size, 1e-9))[:, None]

@@ -62,9 +62,7 @@ def head_depths(
     weights = np.concatenate([head.support.ravel(), _FACE_WEIGHT * face.support.ravel()])
     known = np.isfinite(votes)
     votes, weights = votes[known], weights[known]
-    was = expected - _BEHIND_EYES
-    was = was[np.isfinite(was)]
-    last = median(was) if len(was) else float("nan")
+    last = median(expected - _BEHIND_EYES)
     eyes = _agreed(votes, weights, neck - _BEFORE_NECK, last)
     if not np.isfinite(eyes):
         eyes = last if np.isfinite(last) else neck - _BEFORE_NECK

@@ -29,9 +29,8 @@ from teo_skeleton_retriever.errors import RetrieverError
 
 _NEAREST = 0.01  # [m] no depth is bounded below this
 _END_FREEDOM = 0.01  # [m] how far the first and last keypoint may move away from the camera
-_JOINT_FREEDOM = (
-    0.30  # [m] how far the ones between may: the sensor sees the skin, or something before the joint
-)
+# [m] How far the ones between may: the sensor sees the skin, or something before the joint.
+_JOINT_FREEDOM = 0.30
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -103,16 +102,6 @@ class LimbChain:
         """Give the keypoints at these depths [m]. Shape (n, 3)."""
         return np.column_stack([self.rays * depths[:, None], depths])
 
-    def residuals(self, depths: FloatArray) -> FloatArray:
-        """Squared lengths less the known ones [m^2]. Shape (n - 1,)."""
-        steps = np.diff(self.points(depths), axis=0)
-        missed: FloatArray = (steps**2).sum(axis=1) - self.lengths**2
-        return missed
-
-    def cost(self, depths: FloatArray) -> float:
-        """Objective: sum of the squared residuals [m^4]."""
-        return float((self.residuals(depths) ** 2).sum())
-
 
 class LimbSolution(NamedTuple):
     """Solution for the depths of a limb."""
@@ -132,32 +121,13 @@ _ROUNDING = 1e-9  # [m] beyond a bound is rounding
 
 
 class FastLimbSolver:
-    """Moves the depths of a limb so that its lengths hold. One solver serves limbs of any length.
+    """Moves the depths of limbs of one number of keypoints so that their lengths hold.
 
     Not safe to share between threads: the buffers are the solver's.
     """
 
-    def __init__(self) -> None:
-        self._compiled: dict[int, _Compiled] = {}
-
-    def prepare(self, joints: int) -> None:
-        """Compile for limbs of so many keypoints now, not at the first of them."""
-        if joints not in self._compiled:
-            self._compiled[joints] = _Compiled(joints)
-
-    def solve(self, chain: LimbChain) -> LimbSolution:
-        """Solve one limb. Takes about 0.03 ms, the first of each number of keypoints half a second."""
-        joints = len(chain.rays)
-        self.prepare(joints)
-        depths = self._compiled[joints](chain)
-        inside = (depths >= chain.lower - _ROUNDING) & (depths <= chain.upper + _ROUNDING)  # NaN is not
-        return LimbSolution(depths, bool(inside.all()))
-
-
-class _Compiled:
-    """The function for one number of keypoints, with its buffers."""
-
     def __init__(self, joints: int) -> None:
+        """Compile for limbs of so many keypoints; the first solver of a number takes half a second."""
         sizes = (2 * joints, joints - 1, joints, joints, joints)
         self._arguments = [np.zeros(size) for size in sizes]
         self._result = np.zeros(joints)
@@ -167,12 +137,15 @@ class _Compiled:
             self._buffer.set_arg(i, memoryview(argument.data))
         self._buffer.set_res(0, memoryview(self._result.data))
 
-    def __call__(self, chain: LimbChain) -> np.ndarray:
+    def solve(self, chain: LimbChain) -> LimbSolution:
+        """Solve one limb. Takes about 0.03 ms."""
         values = (chain.rays.ravel(), chain.lengths, chain.start, chain.lower, chain.upper)
         for argument, value in zip(self._arguments, values, strict=True):
             argument[:] = value
         self._call()
-        return self._result.copy()
+        depths = self._result.copy()
+        inside = (depths >= chain.lower - _ROUNDING) & (depths <= chain.upper + _ROUNDING)  # NaN is not
+        return LimbSolution(depths, bool(inside.all()))
 
 
 @cache

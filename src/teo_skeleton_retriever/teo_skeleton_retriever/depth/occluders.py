@@ -11,7 +11,7 @@ import numpy as np
 
 from teo_skeleton_retriever.arrays import BoolArray, FloatArray
 from teo_skeleton_retriever.layouts.layout import HAND_21
-from teo_skeleton_retriever.layouts.person_layout import ARMS, KEYPOINTS
+from teo_skeleton_retriever.layouts.person_layout import ARMS
 
 _FOREARM, _HAND = 0.045, 0.055  # [m] half a forearm's breadth, half a palm's with the thumb
 _STEPS = np.linspace(0.0, 1.0, 6)  # a forearm is covered by discs 5 cm apart, a hand by those 2 cm apart
@@ -37,36 +37,22 @@ class Occluders(NamedTuple):
     own_clear: FloatArray
     """how far before a joint of the same arm each hides it [m]. Shape (k,)"""
 
-    def before(self, rays: FloatArray, depth: FloatArray, own: BoolArray | None = None) -> FloatArray:
-        """Give the depth of the nearest that lies before each joint [m]; NaN where none does. Shape (n,).
+    def hide(self, rays: FloatArray, depth: FloatArray, limbs: Mapping[int, Sequence[int]]) -> BoolArray:
+        """Tell before which joints one of them lies. Shape (n,).
 
         Args:
             rays: x/z, y/z of the joints. Shape (n, 2).
             depth: Of the joints [m]. Shape (n,).
-            own: Which are the joints' own limbs and hide nothing. Shape (n, k).
+            limbs: By the row of a joint, where its own limbs begin: those hide it only from farther before it
+                than their own skin.
         """
-        nearest = np.full(len(rays), np.nan)
-        hides = self._on(rays)
-        clear = _CLEAR if own is None else np.where(own, self.own_clear, _CLEAR)
-        with np.errstate(invalid="ignore"):
-            hides &= self.points[:, 2] < depth[:, None] - clear
-        hidden = hides.any(axis=1)
-        nearest[hidden] = np.where(hides[hidden], self.points[:, 2], np.inf).min(axis=1, initial=np.inf)
-        return nearest
-
-    def of(self, limbs: Mapping[int, Sequence[int]]) -> BoolArray:
-        """Tell which belong to limbs.
-
-        Args:
-            limbs: By the row of a keypoint, the rows of the joints at which limbs begin.
-
-        Returns:
-            Shape (N, k).
-        """
-        own = np.zeros((KEYPOINTS, len(self.points)), dtype=bool)
+        clear = np.full((len(rays), len(self.points)), _CLEAR)
         for row, joints in limbs.items():
-            own[row] = np.isin(self.owner, joints)
-        return own
+            clear[row] = np.where(np.isin(self.owner, joints), self.own_clear, _CLEAR)
+        with np.errstate(invalid="ignore"):
+            hides = self._on(rays) & (self.points[:, 2] < depth[:, None] - clear)
+        hidden: BoolArray = hides.any(axis=1)
+        return hidden
 
     def shown(self, rays: FloatArray, depths: FloatArray) -> BoolArray:
         """Tell which measured depths are those of a forearm or a hand, not of what is behind it.

@@ -37,12 +37,7 @@ class Layout:
 
 
 def _bones_of(keypoints: tuple[str, ...], pairs: str) -> tuple[tuple[str, str], ...]:
-    """Read bones from a table of index pairs.
-
-    Args:
-        keypoints: The names that the indices point to.
-        pairs: For example ``"0-1 1-2"``; a longer run ``"0-1-2"`` is its consecutive pairs.
-    """
+    """Read bones from a table of index pairs, such as "0-1 1-2"; a longer run "0-1-2" is its pairs."""
     runs = [[keypoints[int(i)] for i in run.split("-")] for run in pairs.split()]
     return tuple(pair for run in runs for pair in pairwise(run))
 

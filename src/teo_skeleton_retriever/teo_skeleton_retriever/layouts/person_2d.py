@@ -12,8 +12,8 @@ from teo_skeleton_retriever.arrays import FloatArray, frozen
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25, COCO_18, FACE_70, HAND_21
 
-# Keypoints of the body layouts that OpenPose writes.
-_BODY_SIZES = {25: "BODY_25", 18: "COCO", 15: "MPI"}
+# Keypoints of the body layouts that OpenPose writes: BODY_25, COCO and MPI.
+_BODY_SIZES = (25, 18, 15)
 
 
 def _absent() -> FloatArray:
@@ -46,45 +46,39 @@ class Person2D:
 
     def __post_init__(self) -> None:
         sizes = {
-            "body": tuple(_BODY_SIZES),
+            "body": _BODY_SIZES,
             "left_hand": (len(HAND_21),),
             "right_hand": (len(HAND_21),),
             "face": (len(FACE_70),),
         }
         for name, allowed in sizes.items():
-            array = np.asarray(getattr(self, name), dtype=np.float64)
-            if array.ndim != 2 or array.shape[1] != 3 or len(array) not in (0, *allowed):
+            shape = np.shape(getattr(self, name))
+            if shape not in [(rows, 3) for rows in (0, *allowed)]:
                 raise RetrieverError(
                     "wrong_shape",
                     f"{name}: expected no rows or {' or '.join(map(str, allowed))} rows of 3 numbers, "
-                    f"got shape {array.shape}",
+                    f"got shape {shape}",
                 )
-            if not np.isfinite(array).all():
-                raise RetrieverError("not_finite", f"{name}: expected finite numbers, got NaN or infinity")
-            object.__setattr__(self, name, frozen(array))
         imagined = {
             "body_depth": (len(BODY_25),),
             "left_hand_world": (len(HAND_21), 3),
             "right_hand_world": (len(HAND_21), 3),
         }
         for name, shape in imagined.items():
+            world = getattr(self, name)
+            if world is not None and np.shape(world) != shape:
+                raise RetrieverError("wrong_shape", f"{name}: expected {shape}, got {np.shape(world)}")
+        for name in (*sizes, *imagined):
             if getattr(self, name) is None:
                 continue
-            world = np.asarray(getattr(self, name), dtype=np.float64)
-            if world.shape != shape:
-                raise RetrieverError("wrong_shape", f"{name}: expected {shape}, got {world.shape}")
-            if not np.isfinite(world).all():
+            array = frozen(getattr(self, name))
+            if not np.isfinite(array).all():
                 raise RetrieverError("not_finite", f"{name}: expected finite numbers, got NaN or infinity")
-            object.__setattr__(self, name, frozen(world))
+            object.__setattr__(self, name, array)
 
 
 def midpoint(first: FloatArray, second: FloatArray) -> FloatArray:
-    """Mean position with the lower confidence; absent (zero) if either is absent.
-
-    Args:
-        first: x, y [px], confidence. Shape (3,).
-        second: Likewise.
-    """
+    """Mean position of two keypoints x, y [px], confidence, with the lower one; zero if either is absent."""
     confidence = min(first[2], second[2])
     if not confidence > 0.0:
         return np.zeros(3)
@@ -99,26 +93,12 @@ _MPI: tuple[str | None, ...] = (
     *("RHip", "RKnee", "RAnkle", "LHip", "LKnee", "LAnkle"),
     None,  # nor is the chest
 )
-
-
-def body_25_from_coco_18(body: FloatArray) -> FloatArray:
-    """Bring COCO keypoints into BODY_25: same names, mid-hip between the hips, feet absent.
-
-    Args:
-        body: x, y [px], confidence. Shape (18, 3).
-
-    Returns:
-        x, y [px], confidence; absent keypoints are zero. Shape (25, 3).
-    """
-    out = np.zeros((len(BODY_25), 3))
-    for name, row in zip(COCO_18.keypoints, body, strict=True):
-        out[BODY_25.index[name]] = row
-    out[BODY_25.index["MidHip"]] = midpoint(body[COCO_18.index["RHip"]], body[COCO_18.index["LHip"]])
-    return out
+# Names of the keypoints of other bodies than BODY_25, by their number.
+_OTHER_BODIES: dict[int, tuple[str | None, ...]] = {len(COCO_18): COCO_18.keypoints, len(_MPI): _MPI}
 
 
 def as_body_25(body: FloatArray) -> FloatArray:
-    """Bring a body into BODY_25.
+    """Bring a body into BODY_25: same names, mid-hip between the hips.
 
     Args:
         body: x, y [px], confidence, in BODY_25, COCO or MPI; or no rows. Shape (n, 3).
@@ -131,14 +111,12 @@ def as_body_25(body: FloatArray) -> FloatArray:
     """
     if len(body) == len(BODY_25):
         return body
-    if len(body) == len(COCO_18):
-        return body_25_from_coco_18(body)
     out = np.zeros((len(BODY_25), 3))
     if len(body) == 0:
         return out
-    if len(body) != len(_MPI):
+    if len(body) not in _OTHER_BODIES:
         raise RetrieverError("wrong_layout", f"expected BODY_25, COCO or MPI, got {len(body)} keypoints")
-    for name, row in zip(_MPI, body, strict=True):
+    for name, row in zip(_OTHER_BODIES[len(body)], body, strict=True):
         if name is not None:
             out[BODY_25.index[name]] = row
     out[BODY_25.index["MidHip"]] = midpoint(out[BODY_25.index["RHip"]], out[BODY_25.index["LHip"]])

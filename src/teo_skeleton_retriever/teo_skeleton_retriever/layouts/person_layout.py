@@ -14,6 +14,8 @@ LEFT_HAND = slice(BODY.stop, BODY.stop + len(HAND_21))
 RIGHT_HAND = slice(LEFT_HAND.stop, LEFT_HAND.stop + len(HAND_21))
 FACE = slice(RIGHT_HAND.stop, RIGHT_HAND.stop + len(FACE_70))
 KEYPOINTS = FACE.stop
+# Rows of each part of a `Skeleton`.
+PART_ROWS = {"body": BODY, "left_hand": LEFT_HAND, "right_hand": RIGHT_HAND, "face": FACE}
 
 ROW = BODY_25.index
 # Rows of shoulder, elbow and wrist on the left and on the right.

@@ -46,11 +46,6 @@ class BodyFrame:
         moved: FloatArray = (np.asarray(points, dtype=np.float64) - self.origin) @ self.rotation
         return moved
 
-    def to_camera(self, points: FloatArray) -> FloatArray:
-        """Bring points of the body's frame into the camera's [m]. Shape (..., 3) each."""
-        moved: FloatArray = np.asarray(points, dtype=np.float64) @ self.rotation.T + self.origin
-        return moved
-
 
 def body_frame(
     *,
@@ -92,6 +87,16 @@ def body_frame(
     rotation = np.column_stack([x, y, _cross(x, y)])
     return BodyFrame(
         hips if anchored and hips is not None else chest, rotation, "hips" if anchored else "shoulders"
+    )
+
+
+def frame_of_body(body: FloatArray) -> BodyFrame | None:
+    """The frame of a body by its 25 keypoints, NaN where not known [m]; None as in `body_frame`."""
+    return body_frame(
+        left_shoulder=body[BODY_25.index["LShoulder"]],
+        right_shoulder=body[BODY_25.index["RShoulder"]],
+        left_hip=body[BODY_25.index["LHip"]],
+        right_hip=body[BODY_25.index["RHip"]],
     )
 
 

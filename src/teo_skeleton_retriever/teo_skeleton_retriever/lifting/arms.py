@@ -18,8 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from teo_skeleton_retriever.arrays import BoolArray, FloatArray
-from teo_skeleton_retriever.lifting.clip import ELBOW, SHOULDER, SIDES, WRIST, Points
-from teo_skeleton_retriever.lifting.depth_smoothing import smooth_depth
+from teo_skeleton_retriever.lifting.clip import ELBOW, SHOULDER, SIDES, WRIST, Points, smooth_depth
 from teo_skeleton_retriever.lifting.network import load_network
 
 # [m] Lengths of an adult's limbs, between the centres of the joints. After Drillis and Contini, "Body Segment
@@ -56,12 +55,7 @@ class BodyMeasure:
 
 
 def measure_body(body: Points, turn: FloatArray) -> BodyMeasure:
-    """Measure a person whose shoulders are seen.
-
-    Args:
-        body: BODY_25 in the picture.
-        turn: How far the trunk is turned aside [rad]. Shape (T,).
-    """
+    """Measure a person whose shoulders are seen, in BODY_25, by how far the trunk is turned aside [rad]."""
     both = [(SHOULDER["left"], SHOULDER["right"])]
     shoulders = float(np.percentile(_lengths(body, both, turn), _SHOULDERS_PERCENTILE))
     limbs = []

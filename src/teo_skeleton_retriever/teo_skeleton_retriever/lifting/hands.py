@@ -19,8 +19,7 @@ import numpy as np
 
 from teo_skeleton_retriever.arrays import BoolArray, FloatArray
 from teo_skeleton_retriever.depth.hand_shape import CHILD, PARENT, turned
-from teo_skeleton_retriever.lifting.clip import Points
-from teo_skeleton_retriever.lifting.depth_smoothing import smooth_depth
+from teo_skeleton_retriever.lifting.clip import Points, smooth_depth
 from teo_skeleton_retriever.lifting.hand_axes import INDEX, LITTLE, PALM, THUMB, WRIST, in_palm, palm_axes
 from teo_skeleton_retriever.lifting.network import load_network
 

@@ -4,8 +4,8 @@
 
 What is left and up is seen. How far elbows and wrists are in front a network tells (`lifting.arms`); in a
 hand it follows from the lengths of its bones (`lifting.hands`), in a head from its shape (`lifting.head`).
-Shoulders and hips are in one upright plane, turned as the detector imagines it (`lifting.trunk`); what is
-before them looks larger by how near the camera is.
+Shoulders and hips are in one upright plane, turned as the detector imagines it; what is before them looks
+larger by how near the camera is.
 """
 
 from __future__ import annotations
@@ -20,12 +20,20 @@ from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.layouts.person_layout import BODY, HANDS, KEYPOINTS, ROW
 from teo_skeleton_retriever.layouts.skeleton_3d import KeypointStatus
 from teo_skeleton_retriever.lifting.arms import SeenArm, lift_arm, measure_body
-from teo_skeleton_retriever.lifting.clip import ELBOW, HIP, SHOULDER, SIDES, WRIST, Points, PoseClip
+from teo_skeleton_retriever.lifting.clip import (
+    ELBOW,
+    HIP,
+    SHOULDER,
+    SIDES,
+    WRIST,
+    Points,
+    PoseClip,
+    smooth_depth,
+)
 from teo_skeleton_retriever.lifting.hand_axes import MIDDLE, RING
 from teo_skeleton_retriever.lifting.hand_axes import WRIST as HAND_WRIST
 from teo_skeleton_retriever.lifting.hands import LiftedHand, has_depth, lift_hand, with_learned_fingers
 from teo_skeleton_retriever.lifting.head import POINTS, lift_head
-from teo_skeleton_retriever.lifting.trunk import trunk_turn
 
 # [m] Standard deviation of shoulders and hips along the view: that of a trunk that is turned by 15 deg.
 _TRUNK_SIGMA = 0.04
@@ -102,7 +110,7 @@ class SeenPerson:
     def __init__(self, clip: PoseClip) -> None:
         """Measure them."""
         self._clip = clip
-        self._turn = trunk_turn(clip.body, period=1.0 / clip.rate)
+        self._turn = _trunk_turn(clip.body, period=1.0 / clip.rate)
         self.measure = measure_body(clip.body, self._turn)
         self._places = self.measure.scale * clip.body.places
         self._places[..., 0] = np.nan
@@ -197,6 +205,42 @@ class SeenPerson:
             hand = self.hands[side]
             return hand._replace(points=with_learned_fingers(hand.points, right=side == "right"))
         return self._hand(side, (arm.wrist - arm.elbow) / self.measure.forearm)
+
+
+# What is true of the depths that MediaPipe gives shoulders: of 42 takes of six rendered people who stood
+# turned by up to 45 deg, the tangent of the true turn was 0.38 of theirs; 5.5 deg remained.
+_TURN_SHARE = 0.38
+# [rad] Deviation of a turn that was found. Most signers face the camera: of a turn that is no larger than
+# this little is believed, of a larger one nearly all.
+_TURN_DEVIATION = np.radians(10.0)
+# [rad] Deviation from one frame to the next, and the acceleration with which trunks turn [rad/s^2]: a raised
+# arm pulls the shoulder that is found along, a signer who turns to somebody takes half a second.
+_TURN_TREMBLE, _TURN_ACCELERATION = np.radians(5.0), 5.0
+# [rad] Beyond this one shoulder hides the other.
+_MOST_TURN = np.radians(60.0)
+
+
+def _trunk_turn(body: Points, *, period: float) -> FloatArray:
+    """How far the trunk is turned to the person's own right in each frame [rad]; 0 where nothing tells it.
+
+    The breadth of the shoulders alone does not tell: it hardly changes up to 20 deg, and not by which side
+    comes forward. A detector that imagines depths knows both.
+
+    Args:
+        body: BODY_25 in the picture; depths in its scale, as the detector imagines them.
+        period: Between two frames [s].
+
+    Returns:
+        Positive where the left shoulder is in front. Shape (T,).
+    """
+    away = body.places[:, SHOULDER["left"]] - body.places[:, SHOULDER["right"]]
+    turn = np.arctan2(_TURN_SHARE * away[:, 0], np.abs(away[:, 1]))[:, None]
+    smooth = smooth_depth(
+        turn, np.full_like(turn, _TURN_TREMBLE), period=period, acceleration=_TURN_ACCELERATION
+    )[:, 0]
+    found = np.nan_to_num(smooth)
+    believed = found**2 / (found**2 + _TURN_DEVIATION**2)
+    return np.asarray(np.clip(believed * found, -_MOST_TURN, _MOST_TURN))
 
 
 def _between_shoulders(clip: PoseClip) -> FloatArray:

@@ -39,40 +39,27 @@ class Percentiles(NamedTuple):
 
 
 class Result(NamedTuple):
-    """What is kept of one processed image; times in seconds."""
+    """What is kept of one processed image, the defaults of none; times in seconds."""
 
-    now: float
+    now: float = math.nan
     """when it was done"""
-    delay: float
+    delay: float = math.nan
     """from the arrival of the image's last part to the result"""
-    age: float
+    age: float = math.nan
     """from the image's stamp to the result; NaN where the clocks have nothing to do with each other"""
-    detector: float
+    detector: float = math.nan
     """time of the detector"""
-    own: float
+    own: float = math.nan
     """time of what comes after it"""
-    people: int
-    depth_share: float
+    people: int = 0
+    depth_share: float = math.nan
     """part of the pixels with a depth, 0 to 1"""
-    depth_median: float
+    depth_median: float = math.nan
     """of the depths [m]; NaN if there is none"""
-    signer: int | None
+    signer: int | None = None
     """id; None if there is none"""
     people_left_out: int = 0
     """how many more people the detector sees than it follows"""
-
-
-_NOTHING = Result(
-    now=math.nan,
-    delay=math.nan,
-    age=math.nan,
-    detector=math.nan,
-    own=math.nan,
-    people=0,
-    depth_share=math.nan,
-    depth_median=math.nan,
-    signer=None,
-)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -100,12 +87,7 @@ class StreamStats:
     """Counts. May be used by several threads. Times [s] are of a clock that never goes back."""
 
     def __init__(self, streams: tuple[str, ...], now: float) -> None:
-        """Begin with nothing.
-
-        Args:
-            streams: Names of what arrives.
-            now: Time of the start.
-        """
+        """Begin with nothing, at a time; `streams` are the names of what arrives."""
         self._start = now
         self._lock = threading.Lock()
         self._arrivals: dict[str, deque[float]] = {name: deque(maxlen=_MOST) for name in streams}
@@ -135,7 +117,7 @@ class StreamStats:
         with self._lock:
             arrivals = {name: list(times) for name, times in self._arrivals.items()}
             results = [result for result in self._results if now - result.now <= _WINDOW]
-            last = self._results[-1] if self._results else _NOTHING
+            last = self._results[-1] if self._results else Result()
             dropped, count = dict(self._dropped), self._count
         streams = arrivals | {"results": [result.now for result in results]}
         return StreamReport(
@@ -160,7 +142,7 @@ def _rate(times: list[float], now: float) -> float:
 def _percentiles(values: list[float]) -> Percentiles:
     known = [value for value in values if np.isfinite(value)]
     if not known:
-        return Percentiles(float("nan"), float("nan"))
+        return Percentiles(math.nan, math.nan)
     median, p99 = np.percentile(known, [50, 99])
     return Percentiles(float(median), float(p99))
 
@@ -237,13 +219,7 @@ class ImageDiagnostics:
     """Publishes the state when asked, and at once when a problem is new. May be used by several threads."""
 
     def __init__(self, node: Any, stats: StreamStats, topics: dict[str, str]) -> None:
-        """Create the publisher.
-
-        Args:
-            node: To publish and to log with.
-            stats: Of its streams.
-            topics: Name of the topic of each stream that must come.
-        """
+        """Create the publisher; `topics` are those of the streams that must come."""
         self._node = node
         self._stats = stats
         self._topics = topics

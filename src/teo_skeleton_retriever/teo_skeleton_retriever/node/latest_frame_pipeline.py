@@ -9,12 +9,13 @@ import sys
 import threading
 from collections import deque
 from collections.abc import Callable
+from concurrent.futures import Future
 from typing import Generic, TypeVar
 
 # [s] after which a thread that runs lets another one in. MediaPipe's threads call Python eleven times for an
 # image; at Python's own 5 ms each of these calls may stop a network for as long as another image's second
 # half or a message takes.
-SWITCH_INTERVAL = 0.0005
+_SWITCH_INTERVAL = 0.0005
 
 
 def tune_interpreter() -> None:
@@ -23,21 +24,13 @@ def tune_interpreter() -> None:
     For the process of a node, once all is loaded: a full collection stops all threads for 30 ms, nearly all
     of it for modules and classes that never go.
     """
-    sys.setswitchinterval(SWITCH_INTERVAL)
+    sys.setswitchinterval(_SWITCH_INTERVAL)
     gc.collect()
     gc.freeze()
 
 
 _Job = TypeVar("_Job")
 _StageResult = TypeVar("_StageResult")
-
-
-class _Slot(Generic[_StageResult]):
-    """A job that was begun, and the result of its first stage once that is done."""
-
-    def __init__(self) -> None:
-        self.done = False
-        self.result: _StageResult | None = None
 
 
 class LatestFramePipeline(Generic[_Job, _StageResult]):
@@ -66,7 +59,7 @@ class LatestFramePipeline(Generic[_Job, _StageResult]):
         self._second = second
         self._at_once = at_once
         self._waiting: _Job | None = None
-        self._begun: deque[_Slot[_StageResult]] = deque()
+        self._begun: deque[Future[_StageResult | None]] = deque()
         self._closed = False
         self._changed = threading.Condition()
         self._threads = [threading.Thread(target=self._run_first, daemon=True) for _ in range(at_once)]
@@ -96,12 +89,11 @@ class LatestFramePipeline(Generic[_Job, _StageResult]):
                 if self._closed:
                     return
                 job, self._waiting = self._waiting, None
-                slot = _Slot[_StageResult]()
-                self._begun.append(slot)
+                begun: Future[_StageResult | None] = Future()
+                self._begun.append(begun)
             assert job is not None
-            result = self._first(job)
+            begun.set_result(self._first(job))
             with self._changed:
-                slot.done, slot.result = True, result
                 self._changed.notify_all()
 
     def _may_begin(self) -> bool:
@@ -110,10 +102,10 @@ class LatestFramePipeline(Generic[_Job, _StageResult]):
     def _run_second(self) -> None:
         while True:
             with self._changed:
-                self._changed.wait_for(lambda: self._closed or (self._begun and self._begun[0].done))
+                self._changed.wait_for(lambda: self._closed or (self._begun and self._begun[0].done()))
                 if self._closed:
                     return
-                result = self._begun.popleft().result
+                result = self._begun.popleft().result()
                 self._changed.notify_all()
             if result is not None:
                 self._second(result)

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
+from functools import partial
 
 from teo_common.parameters import ParameterRow, Value
 from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP, GREATEST_SLOP
@@ -14,74 +15,63 @@ from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.image_retriever import COMPAT_MODES
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters, parameter_rows
 
-_TRANSPORTS_COLOR = ("auto", "raw", "compressed")
-_TRANSPORTS_DEPTH = ("auto", "raw", "compressedDepth")
-
-
+# What holds from the start of the node to its end.
+_at_start = partial(ParameterRow, read_only=True)
 _NODE = (
-    ParameterRow(
+    _at_start(
         name="detector",
         default="mediapipe",
         choices=DETECTORS,
         description="What finds people in the colour image.",
-        read_only=True,
     ),
-    ParameterRow(
+    _at_start(
         name="detector_options",
         default=("",),  # ROS could not tell the type of an empty list
         description="Options of the detector, NAME=VALUE each.",
-        read_only=True,
     ),
-    ParameterRow(
+    _at_start(
         name="compat",
         default="",
         choices=COMPAT_MODES,
         description="Whose processing after the detector: ours if empty, or that of the original.",
-        read_only=True,
     ),
-    ParameterRow(
+    _at_start(
         name="compat_options",
         default=("",),
         description="Parameters of the original, group::name=value each, as in its configuration file.",
-        read_only=True,
     ),
-    ParameterRow(
+    _at_start(
         name="color_transport",
         default="auto",
-        choices=_TRANSPORTS_COLOR,
+        choices=("auto", "raw", "compressed"),
         description="Which form of the colour image is subscribed to; auto: raw, unless only compressed is "
         "published.",
-        read_only=True,
     ),
-    ParameterRow(
+    _at_start(
         name="depth_transport",
         default="auto",
-        choices=_TRANSPORTS_DEPTH,
+        choices=("auto", "raw", "compressedDepth"),
         description="Which form of the depth image is subscribed to; likewise.",
-        read_only=True,
     ),
-    ParameterRow(
+    _at_start(
         name="rectified",
         default=False,
         description="Whether the images were rectified, and so have the projection of P and no distortion.",
-        read_only=True,
     ),
-    ParameterRow(
+    _at_start(
         name="slop",
         default=DEFAULT_SLOP,
         low=0.0,
         high=GREATEST_SLOP,
         description="Greatest difference between the stamps of colour and depth [s]; with more than half the "
         "time between images the depth of another image could be taken.",
-        read_only=True,
     ),
-    ParameterRow(
+    _at_start(
         name="queue_size",
         default=5,
         low=1,
         high=100,
         description="Images that wait for their depth: a sixth of a second at 30 Hz.",
-        read_only=True,
     ),
     ParameterRow(
         name="period",

@@ -30,10 +30,7 @@ from teo_skeleton_retriever.camera.rgbd_image import (
     CAMERA_INFO_TOPIC,
     COLOR_TOPIC,
     DEPTH_TOPIC,
-    RgbdImage,
-    camera_of,
-    color_of,
-    depth_of,
+    image_of,
     stamp_of,
 )
 from teo_skeleton_retriever.camera.synchroniser import Pair, Synchroniser
@@ -243,12 +240,7 @@ class RetrieverNode(Node):
                     _NO_CAMERA_INFO, f"expected it on {self._topics['camera_info']}, got none so far"
                 )
             pair = job.pair
-            image = RgbdImage(
-                stamp=pair.stamp * 1e-9,
-                color=color_of(pair.color),
-                depth=depth_of(pair.depth),
-                camera=camera_of(info, rectified=self._value("rectified")),
-            )
+            image = image_of(pair.color, pair.depth, info, rectified=self._value("rectified"))
             frame_id = pair.color.header.frame_id or info.header.frame_id
             header = Header(stamp=pair.color.header.stamp, frame_id=frame_id)
             return _Followed(job, header, self._retriever.detect(image))

@@ -30,12 +30,7 @@ from teo_skeleton_retriever.layouts.skeleton_3d import (
 
 
 def skeleton_array(skeletons: Sequence[Skeleton], header: Header) -> SkeletonArray:
-    """Everybody seen in one image, as a message.
-
-    Args:
-        skeletons: Of the image.
-        header: Of the image: its stamp, and the camera's optical frame.
-    """
+    """Everybody seen in one image, as a message with its header: its stamp, the camera's optical frame."""
     return SkeletonArray(header=header, skeletons=[_message(skeleton) for skeleton in skeletons])
 
 
@@ -121,12 +116,7 @@ _SIGNER, _OTHER = (1.0, 1.0, 1.0), (0.55, 0.55, 0.55)
 
 
 def marker_array(skeletons: Sequence[Skeleton], header: Header) -> MarkerArray:
-    """Give, for each person and part, a list of bones and one of joints coloured by status; and the id.
-
-    Args:
-        skeletons: Of one image.
-        header: Of the image.
-    """
+    """Give, for each person and part, a list of bones and one of joints coloured by status; and the id."""
     markers = []
     for skeleton in skeletons:
         number = 0

@@ -29,6 +29,7 @@ from teo_skeleton_retriever.output.output_file import output_file
 
 _Rgb = tuple[int, int, int]
 
+# From what is trusted most to what is least.
 STATUS_COLORS: dict[KeypointStatus, _Rgb] = {
     KeypointStatus.MEASURED: (60, 230, 90),
     KeypointStatus.OPTIMISED: (80, 170, 255),
@@ -108,7 +109,7 @@ def _draw_part(
         for a, b in shown:
             _line(picture, pixels[a], pixels[b], edge, width * 2.0)
     for a, b in shown:
-        weaker = min(status[a], status[b], key=_TRUST.index)
+        weaker = max(status[a], status[b], key=list(STATUS_COLORS).index)
         dashed = weaker is KeypointStatus.HELD
         _line(picture, pixels[a], pixels[b], STATUS_COLORS[weaker], width, dashed=dashed)
     if joint:
@@ -118,9 +119,6 @@ def _draw_part(
     for pixel, kind in zip(_on_picture(keypoints.pixels, picture), status, strict=True):
         if kind is KeypointStatus.LOST and np.isfinite(pixel).all():
             _cross(picture, pixel, max(joint, width))
-
-
-_TRUST = (KeypointStatus.LOST, KeypointStatus.HELD, KeypointStatus.OPTIMISED, KeypointStatus.MEASURED)
 
 
 def _draw_label(picture: ColorArray, skeleton: Skeleton, camera: CameraModel, scale: float) -> None:
@@ -135,12 +133,12 @@ def _draw_label(picture: ColorArray, skeleton: Skeleton, camera: CameraModel, sc
     (width, height), _ = cv2.getTextSize(text, _FONT, size, max(round(scale), 1))
     left = int(np.clip(column - width / 2, 2, max(picture.shape[1] - width - 2, 2)))
     bottom = int(np.clip(row - _CROWN * camera.fy / distance, 20 * scale, picture.shape[0] - 4))
-    back, front = (_SIGNER, _INK) if skeleton.is_signer else (_OTHER, _INK)
+    back = _SIGNER if skeleton.is_signer else _OTHER
     pad = round(4 * scale)
     cv2.rectangle(
         picture, (left - pad, bottom - height - pad), (left + width + pad, bottom + pad), back, cv2.FILLED
     )
-    cv2.putText(picture, text, (left, bottom), _FONT, size, front, max(round(scale), 1), cv2.LINE_AA)
+    cv2.putText(picture, text, (left, bottom), _FONT, size, _INK, max(round(scale), 1), cv2.LINE_AA)
 
 
 def _draw_unfollowed(picture: ColorArray, result: Retrieved, scale: float) -> None:
@@ -148,11 +146,9 @@ def _draw_unfollowed(picture: ColorArray, result: Retrieved, scale: float) -> No
     if result.skeletons:
         return
     for person in result.people:
-        for x, y, confidence in person.body:
-            if confidence > 0.0:
-                pixel = _on_picture(np.array([[x, y]]), picture)[0]
-                if np.isfinite(pixel).all():
-                    _cross(picture, pixel, 3.0 * scale)
+        for pixel in _on_picture(person.body[person.body[:, 2] > 0.0, :2], picture):
+            if np.isfinite(pixel).all():
+                _cross(picture, pixel, 3.0 * scale)
 
 
 def _draw_inset(
@@ -190,14 +186,9 @@ def _draw_texts(picture: ColorArray, lines: Sequence[str], scale: float) -> None
         _text(picture, line, (round(6 * scale), step * (i + 1)), 0.5 * scale, scale)
     row = picture.shape[0] - round(8 * scale)
     column = round(6 * scale)
-    for status in (
-        KeypointStatus.MEASURED,
-        KeypointStatus.OPTIMISED,
-        KeypointStatus.HELD,
-        KeypointStatus.LOST,
-    ):
+    for status, color in STATUS_COLORS.items():
         word = status.name.lower()
-        _text(picture, word, (column, row), 0.45 * scale, scale, STATUS_COLORS[status])
+        _text(picture, word, (column, row), 0.45 * scale, scale, color)
         column += cv2.getTextSize(word, _FONT, 0.45 * scale, 1)[0][0] + round(12 * scale)
 
 
@@ -266,12 +257,7 @@ class OverlayVideo:
         self._ticks = -1
 
     def add(self, picture: ColorArray, stamp: float) -> None:
-        """Append a picture; one of another size than the first is scaled to it.
-
-        Args:
-            picture: RGB. Shape (height, width, 3).
-            stamp: When it was taken [s].
-        """
+        """Append an RGB picture taken at a time [s]; one of another size than the first is scaled to it."""
         # The format wants even sizes.
         height, width = (size - size % 2 for size in picture.shape[:2])
         if self._stream is None:

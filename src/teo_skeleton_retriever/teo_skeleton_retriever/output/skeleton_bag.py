@@ -11,7 +11,7 @@ from typing import Any, BinaryIO
 
 from mcap.writer import CompressionType, Writer
 
-from teo_skeleton_retriever.bags.message_types import message_types
+from teo_skeleton_retriever.bags.bag_reader import message_types
 from teo_skeleton_retriever.output.output_file import output_file
 
 TOPIC = "/skeletons"
@@ -32,12 +32,7 @@ class SkeletonBag:
         self._channel = self._writer.register_channel(TOPIC, "cdr", schema, metadata)
 
     def write(self, message: Any, time: int) -> None:
-        """Append a SkeletonArray.
-
-        Args:
-            message: To append.
-            time: At which a recorder would have received it [ns].
-        """
+        """Append a SkeletonArray that a recorder would have received at this time [ns]."""
         stamp = message.header.stamp
         published = stamp.sec * 1_000_000_000 + stamp.nanosec
         data = bytes(self._types.serialize_cdr(message, _TYPE))

@@ -27,16 +27,14 @@ class LimbLength:
     """
 
     def __init__(self, *, min_samples: int = 10) -> None:
-        """Know nothing yet.
-
-        Args:
-            min_samples: Fewer lengths make no estimate: a third of a second.
-        """
+        """Know nothing yet; fewer lengths than `min_samples`, a third of a second, make no estimate."""
         self._min_samples = min_samples
         self._samples = np.zeros((_WINDOW, 2))  # lengths and weights, the oldest overwritten
         self._count = 0  # of all lengths so far
-        self._weight = 0.0
-        self._value: float | None = None
+        self.weight = 0.0
+        """Sum of the weights of the lengths: their number if all were seen across the view."""
+        self.value: float | None = None
+        """The estimate [m]; None while too few lengths were seen."""
 
     def step(self, near: FloatArray, far: FloatArray) -> None:
         """Take the measured ends of the limb; lengths outside the human range do not count.
@@ -53,23 +51,13 @@ class LimbLength:
         self._samples[self._count % len(self._samples)] = length, (across / length) ** 4 + 0.001
         self._count += 1
         recent = self._samples[: self._count]
-        self._weight = float(recent[:, 1].sum())
+        self.weight = float(recent[:, 1].sum())
         if len(recent) >= self._min_samples:
-            self._value = _weighted_median(recent)
-
-    @property
-    def value(self) -> float | None:
-        """The estimate [m]; None while too few lengths were seen."""
-        return self._value
-
-    @property
-    def weight(self) -> float:
-        """Sum of the weights of the lengths: their number if all were seen across the view."""
-        return self._weight
+            self.value = _weighted_median(recent)
 
     def too_long(self, length: float) -> bool:
         """Whether a length [m] exceeds the estimate by more than the tolerance; False without one."""
-        return self._value is not None and length > _TOLERANCE * self._value
+        return self.value is not None and length > _TOLERANCE * self.value
 
 
 def _weighted_median(samples: FloatArray) -> float:

@@ -16,13 +16,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from teo_skeleton_retriever.arrays import BoolArray, FloatArray
+from teo_skeleton_retriever.arrays import BoolArray, FloatArray, in_space
 
 _FORGET = 0.15  # [s] over which surprise is averaged: a stroke of a sign takes 0.2 s
 _CALM, _WILD = 0.002, 4.0  # shares of the usual acceleration's variance between which it is adapted
-_STARTLING = (
-    6.0  # squared misfit over its expectation that 1.4 % of what is expected exceeds (chi-squared, 1)
-)
+# Squared misfit over its expectation that 1.4 % of what is expected exceeds (chi-squared, 1).
+_STARTLING = 6.0
 _GATE = 5.0  # [sigma] what is farther off is an outlier,
 _PATIENCE = 2  # unless so many images in a row say so
 _STOPPING = 0.1  # [s] in which a keypoint that is not seen is thought to come to rest
@@ -46,8 +45,7 @@ class FilterOutput(NamedTuple):
     @property
     def points(self) -> FloatArray:
         """Estimated positions [m]; NaN where lost. Shape (n, 3)."""
-        points: FloatArray = np.column_stack([self.rays, np.ones(len(self.depth))]) * self.depth[:, None]
-        return points
+        return in_space(self.rays, self.depth)
 
     def part(self, rows: slice) -> FilterOutput:
         """Keep some of the keypoints."""
@@ -87,15 +85,8 @@ class KeypointFilter:
         self._seen = np.full(n, -np.inf)
         self._doubts = np.zeros((2, n), dtype=np.int64)  # images in a row of directions and of depths
         self._time: float | None = None
-        self._ahead: tuple[float, FloatArray, FloatArray] | None = (
-            None  # what was last expected, and for when
-        )
-
-    @property
-    def known(self) -> BoolArray:
-        """Which keypoints have a place. Shape (n,)."""
-        known: BoolArray = np.isfinite(self._state[0]).all(axis=1)
-        return known
+        # For when something was last expected, and what.
+        self._ahead: tuple[float, FloatArray, FloatArray] | None = None
 
     def predict(self, time: float) -> FilterOutput:
         """Predict the keypoints at a time [s], not before the last image; the filter stays as it is."""
@@ -146,7 +137,8 @@ class KeypointFilter:
         )
         self._correct(values, sigma, elapsed)
         self._begin(values, sigma)
-        self._seen[np.isfinite(values[:, :2]).all(axis=1) & self.known] = time
+        known = np.isfinite(self._state[0]).all(axis=1)
+        self._seen[np.isfinite(values[:, :2]).all(axis=1) & known] = time
         fresh: BoolArray = np.asarray(np.isfinite(values).all(axis=1))
         return self._output(self._state, self._covariance, time, fresh)
 

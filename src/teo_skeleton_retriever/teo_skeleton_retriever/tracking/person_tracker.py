@@ -62,12 +62,7 @@ class PersonTracker:
     """
 
     def __init__(self, newcomer_images: int = 3) -> None:
-        """Know nobody yet.
-
-        Args:
-            newcomer_images: Images in which someone must be seen to get an id; fewer let flickers of the
-                detector become people.
-        """
+        """Know nobody yet; with fewer images before an id is given flickers of the detector become people."""
         self._newcomer_images = newcomer_images
         self._people: dict[int, TrackedPerson] = {}
         self._newcomers: list[TrackedPerson] = []
@@ -203,13 +198,13 @@ class SignerChoice:
         """Id of the signer, seen or waited for; None if there is none."""
         return self._signer
 
-    def lock(self, person_id: int) -> None:
-        """Follow this person and nobody else, whether or not they are seen."""
-        self._signer, self._locked = person_id, True
+    def lock(self, person_id: int | None) -> None:
+        """Follow this person and nobody else, whether or not they are seen.
 
-    def unlock(self) -> None:
-        """Choose by the rule again once the present signer leaves."""
-        self._locked = False
+        None chooses by the rule again once the present signer leaves.
+        """
+        self._signer = self._signer if person_id is None else person_id
+        self._locked = person_id is not None
 
     def step(self, time: float, seen: Mapping[int, FloatArray]) -> int | None:
         """Take one image.

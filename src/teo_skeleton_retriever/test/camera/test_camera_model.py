@@ -64,11 +64,6 @@ def test_points_that_are_not_before_the_camera_have_no_pixel() -> None:
     assert np.isfinite(pixels).all(axis=1).tolist() == [True, False, False, False]
 
 
-def test_depths_that_are_not_known_give_no_point() -> None:
-    points = camera().unproject(np.zeros((4, 2)), np.array([0.0, -1.0, math.nan, math.inf]))
-    assert np.isnan(points).all()
-
-
 def test_where_a_lens_images_nothing_there_is_no_ray() -> None:
     barrel = camera(distortion_model="plumb_bob", distortion=np.array([-0.4, 0.0, 0.0, 0.0, 0.0]))
     rays = barrel.rays(np.array([[322.5, 237.1], [5000.0, 237.1]]))

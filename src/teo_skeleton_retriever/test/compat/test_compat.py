@@ -5,20 +5,25 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import cv2
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 from refusals import refused
+from scipy.ndimage import minimum_filter
 
 from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.compat.original_retriever import OriginalRetriever
 from teo_skeleton_retriever.compat.original_skeleton import (
     SKELETON_STD,
+    ContourDilation,
     OriginalParameters,
     OriginalSkeleton,
     detect,
     is_valid,
 )
-from teo_skeleton_retriever.depth.limb_solver import FastLimbSolver
 from teo_skeleton_retriever.layouts.layout import BODY_25, COCO_18
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
@@ -108,7 +113,7 @@ def test_who_is_a_person_is_decided_as_in_the_original(without: tuple[str, ...],
 
 def retriever(**changes: Any) -> OriginalRetriever:
     parameters = OriginalParameters(**{"depth_filter": None, **changes})
-    return OriginalRetriever(CAMERA, parameters, FastLimbSolver())
+    return OriginalRetriever(CAMERA, parameters)
 
 
 def test_a_keypoint_is_held_for_some_images_then_stale() -> None:
@@ -143,3 +148,29 @@ def test_someone_not_seen_is_forgotten_after_their_time_to_live() -> None:
     assert set(original.step(0.9, [], flat())) == {0}
     assert set(original.step(1.0, [], flat())) == set()
     assert set(original.step(1.1, [person()], flat())) == {1}
+
+
+images = arrays(
+    np.float32,
+    st.tuples(st.integers(1, 14), st.integers(1, 14)),
+    elements=st.one_of(st.floats(0, 6, width=32), st.just(math.nan)),
+)
+
+
+def described(depth: np.ndarray, dilation: ContourDilation) -> np.ndarray:
+    """The filter in the words of its description, with another library's minimum filter."""
+    near = np.where(np.nan_to_num(depth, nan=0.0) >= np.float32(dilation.min_distance), depth, np.inf)
+    size = dilation.kernel_size
+    window = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (size, size)).astype(bool)
+    for _ in range(dilation.iterations):
+        near = minimum_filter(near, footprint=window, mode="constant", cval=np.inf)
+    return np.where((near <= np.float32(dilation.max_distance)) & (near > 0), near, math.nan)
+
+
+@given(images, st.integers(1, 6), st.integers(0, 3))
+@settings(max_examples=60, deadline=None)
+def test_it_is_an_elliptical_minimum_filter_between_two_distances(
+    depth: np.ndarray, kernel: int, iterations: int
+) -> None:
+    dilation = ContourDilation(kernel_size=kernel, iterations=iterations)
+    np.testing.assert_array_equal(dilation.apply(depth), described(depth, dilation).astype(np.float32))

@@ -5,8 +5,9 @@ from __future__ import annotations
 import camera_take as take
 import numpy as np
 import pytest
+from refusals import refused
 
-from teo_skeleton_retriever.compat.compat_retriever import CompatRetriever
+from teo_skeleton_retriever.compat.compat_retriever import CompatRetriever, original_parameters_from
 from teo_skeleton_retriever.detectors.detector import DetectionFrame
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D
@@ -47,3 +48,41 @@ def test_another_camera_begins_anew():
     retriever.process(frame(0.0, take.person()))
     (person,) = retriever.process(frame(0.1, take.person(scale=2.0), scale=2))
     assert person.body.points[WRIST, 2] == pytest.approx(1.5)
+
+
+def test_the_shipped_configuration_can_be_given_by_its_own_names():
+    got = original_parameters_from(
+        [
+            "skeleton::keys-acceptable-misses=10",
+            "skeleton::tracking-threshold=200",
+            "skeleton::time-to-live=3.0",
+            "depth::kernel-size=8",
+            "depth::iterations = 2",
+            "depth::min-distance=0.6",
+            "filtering::filter-keypoint-order=12",
+            "filtering::optimize-limblength=false",
+        ]
+    )
+    assert (got.keys_acceptable_misses, got.tracking_threshold, got.time_to_live) == (10, 200.0, 3.0)
+    assert (got.filter_keypoint_order, got.optimize_limblength) == (12, False)
+    assert got.depth_filter is not None
+    assert original_parameters_from(["depth::enable=false"]).depth_filter is None
+
+
+@pytest.mark.parametrize(
+    ("code", "word"),
+    [
+        ("unknown_compat_option", "filter-keypoint-order=8"),  # the original ignores it without its group
+        ("unknown_compat_option", "nonsense"),
+        ("wrong_type", "filtering::filter-keypoint-order=many"),
+        ("wrong_type", "depth::enable=perhaps"),
+        ("out_of_range", "skeleton::time-to-live=-1"),
+        ("out_of_range", "skeleton::time-to-live=nan"),
+        ("out_of_range", "depth::kernel-size=0"),
+        ("out_of_range", "depth::iterations=-1"),
+        ("out_of_range", "depth::min-distance=nan"),
+    ],
+)
+def test_what_is_no_option_is_refused(code, word):
+    with refused(code):
+        original_parameters_from([word])

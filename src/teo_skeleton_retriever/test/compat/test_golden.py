@@ -153,7 +153,7 @@ def test_ipopt_gives_the_recorded_depths_to_a_micrometre(recording, chains, arm:
 def test_the_whole_track_gives_the_recorded_skeletons(recording, depths, chains) -> None:
     """All stages after the median filter, with the state that they keep from image to image."""
     # Order 0: what is fed is already filtered.
-    track = OriginalTrack(CAMERA, OriginalParameters(filter_keypoint_order=0), IpoptLimbSolver())
+    track = OriginalTrack(CAMERA, OriginalParameters(filter_keypoint_order=0))
     for _ in range(41):
         track.step(calibration_pose())
     for arm in ARMS:

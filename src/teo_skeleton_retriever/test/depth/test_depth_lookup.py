@@ -11,8 +11,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from teo_skeleton_retriever.depth.depth_lookup import DepthLookup, Surfaces, viewing_rays
-from teo_skeleton_retriever.layouts.layout import BODY_25
-from teo_skeleton_retriever.layouts.person_2d import as_body_25
 
 FOCAL = 600.0
 
@@ -34,24 +32,18 @@ def surfaces_at(depth: np.ndarray, pixels: np.ndarray) -> Surfaces:
     )
 
 
-def sample(
-    depth: np.ndarray, x: float, y: float, *, expected: float | None = None
-) -> tuple[float, float, float]:
-    """Depth, sigma and support at one pixel."""
+def look(depth: np.ndarray, x: float, y: float, *, expected: float | None = None) -> float:
+    """Depth at one pixel."""
     surfaces = surfaces_at(depth, np.array([[x, y]]))
     found = surfaces.nearest() if expected is None else surfaces.closest(np.array([expected]))
-    return float(found.depth[0]), float(found.sigma[0]), float(found.support[0])
-
-
-def look(depth: np.ndarray, x: float, y: float, **more: float | None) -> float:
-    return sample(depth, x, y, **more)[0]
+    return float(found.depth[0])
 
 
 def test_on_a_surface_it_gives_its_depth() -> None:
-    depth, sigma, support = sample(with_arm(wall()), 80, 60)
-    assert depth == pytest.approx(2.0)
-    assert support == 1.0
-    assert sigma == pytest.approx(0.008)  # 2 mm at 1 m, four times that at 2 m
+    found = surfaces_at(with_arm(wall()), np.array([[80, 60]]))
+    assert found.depth[0, 0] == pytest.approx(2.0)
+    assert found.support[0, 0] == 1.0
+    assert found.sigma[0, 0] == pytest.approx(0.008)  # 2 mm at 1 m, four times that at 2 m
 
 
 @pytest.mark.parametrize("outside", [1, 3, 5])
@@ -88,22 +80,9 @@ def test_no_pixel_and_no_expectation_breaks_it(x: float, y: float, expected: flo
     assert not inside or any(abs(found - distance) < 1e-6 for distance in (2.0, 3.5))
 
 
-def test_many_keypoints_are_as_each_by_itself() -> None:
-    random = np.random.default_rng(3)
-    depth = with_arm(wall()) + random.normal(0, 0.005, (120, 160)).astype(np.float32)
-    pixels = random.uniform(-5, 160, (40, 2))
-    together = surfaces_at(depth, pixels).nearest().depth
-    np.testing.assert_array_equal(together, [look(depth, x, y) for x, y in pixels])
-
-
 def test_keypoints_that_are_unsure_absent_or_outside_the_image_are_not_seen() -> None:
     keypoints = np.array([[10.0, 10.0, 8.3], [10.0, 10.0, 0.2], [0.0, 0.0, 0.0], [-5.0, 10.0, 0.9]])
     seen = viewing_rays(keypoints, CAMERA, 0.3)
     assert seen.seen.tolist() == [True, False, False, False]
     assert np.isnan(seen.rays[1:]).all()
     assert seen.confidence.tolist() == [1.0, 0.0, 0.0, 0.0]  # a logit is no confidence
-
-
-def test_the_top_of_the_head_is_no_nose() -> None:
-    body = np.full((15, 3), 5.0)
-    assert not as_body_25(body)[BODY_25.index["Nose"]].any()

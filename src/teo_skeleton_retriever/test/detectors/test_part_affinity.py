@@ -30,6 +30,8 @@ NEAR = 1.0
 """How far a part may be from where it was drawn [px]: an eighth of a cell."""
 CROSSING = 8.0
 """The same where parts may lie on each other, whose peaks are then drawn as one [px]: a cell."""
+PLACE = BODY_25_MODEL.layout.index
+LEG = ("Hip", "Knee", "Ankle", "BigToe", "SmallToe", "Heel")
 
 
 def decode(
@@ -54,10 +56,6 @@ def assert_same_people(found: Sequence[np.ndarray], drawn: Sequence[np.ndarray],
         body = found[int(np.argmin(distance))]
         assert min(distance) < near, np.round(np.column_stack([body, parts]), 1)
         assert not body[~seen].any()
-
-
-def place(name: str, model: PafModel = BODY_25_MODEL) -> int:
-    return model.layout.index[name]
 
 
 @given(st.floats(12, 640), st.floats(12, 350))
@@ -123,12 +121,9 @@ def test_people_who_overlap_are_told_apart(apart: float) -> None:
     [
         ("LWrist",),
         ("LElbow", "LWrist"),
-        ("RHip", "RKnee", "RAnkle", "RBigToe", "RSmallToe", "RHeel"),
+        tuple(f"R{part}" for part in LEG),
         ("Nose", "REye", "LEye", "REar", "LEar"),
-        (
-            "MidHip",
-            *(f"{s}{p}" for s in "RL" for p in ("Hip", "Knee", "Ankle", "BigToe", "SmallToe", "Heel")),
-        ),
+        ("MidHip", *(f"{side}{part}" for side in "RL" for part in LEG)),
     ],
     ids=lambda hidden: hidden[0],
 )
@@ -156,15 +151,14 @@ def test_a_limb_whose_field_has_a_gap_is_no_limb_unless_asked_for() -> None:
     parts = person(320, 90)
     maps, fields = draw([parts], SIZE)
     for limb in (("RElbow", "RWrist"), ("LShoulder", "LElbow")):
-        a, b = (place(part) for part in limb)
+        a, b = (PLACE[part] for part in limb)
         channels = BODY_25_MODEL.fields[BODY_25_MODEL.limbs.tolist().index([a, b])]
         middle = int((parts[a, 1] + parts[b, 1]) / 2 / 8)
         fields[channels, middle : middle + 2] = 0.0
     careful, generous = decode(maps, fields)[0], decode(maps, fields, thresholds=GENEROUS)[0]
-    assert not careful[place("RWrist")].any()
-    assert not careful[place("LElbow")].any()
-    assert generous[place("RWrist")].any()
-    assert generous[place("LElbow")].any()
+    for part in ("RWrist", "LElbow"):
+        assert not careful[PLACE[part]].any()
+        assert generous[PLACE[part]].any()
 
 
 def only(*names: str) -> dict[str, Any]:
@@ -183,6 +177,5 @@ def test_feet_with_little_else_are_no_person() -> None:
     foot = ("RBigToe", "RSmallToe", "RHeel", "RAnkle")
     leg = (*foot, "RKnee", "RHip", "MidHip")
     body = (*leg, "Neck")
-    assert [len(decode(*draw([person(320, 60, **only(*names))], SIZE))) for names in (foot, leg, body)] == [
-        *(0, 0, 1),
-    ]
+    found = [decode(*draw([person(320, 60, **only(*names))], SIZE)) for names in (foot, leg, body)]
+    assert [len(people) for people in found] == [0, 0, 1]

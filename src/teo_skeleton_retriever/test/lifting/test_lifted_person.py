@@ -14,8 +14,16 @@ from rosbags.highlevel import AnyReader
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.layouts.person_layout import BODY, HANDS, LEFT_HAND, RIGHT_HAND
-from teo_skeleton_retriever.lifting.clip import ELBOW, HIP, SHOULDER, SIDES, WRIST, Points, PoseClip
-from teo_skeleton_retriever.lifting.depth_smoothing import smooth_depth
+from teo_skeleton_retriever.lifting.clip import (
+    ELBOW,
+    HIP,
+    SHOULDER,
+    SIDES,
+    WRIST,
+    Points,
+    PoseClip,
+    smooth_depth,
+)
 from teo_skeleton_retriever.lifting.hand_axes import MIDDLE, palm_axes
 from teo_skeleton_retriever.lifting.hands import without_flips
 from teo_skeleton_retriever.lifting.lifted_person import LiftedPerson, lift_clip
@@ -148,15 +156,13 @@ def with_imagined_depths(clip: PoseClip, truth: FloatArray) -> PoseClip:
     """Depths of the body as MediaPipe imagines them: 2.6 times too large, arms off by 7 cm for a second."""
     random = np.random.default_rng(1)
     places = clip.body.places.copy()
-    off = np.repeat(random.normal(0.0, 0.07, (len(truth) // 15 + 1, places.shape[1])), 15, axis=0)[
-        : len(truth)
-    ]
+    off = random.normal(0.0, 0.07, (len(truth) // 15 + 1, places.shape[1])).repeat(15, axis=0)[: len(truth)]
     off[:, list(SHOULDER.values())] = random.normal(0.0, 0.01, (len(truth), 2))
     places[..., 0] = (truth[:, BODY, 0] + off) / 0.38 * PIXELS
     return replace(clip, body=replace(clip.body, places=places))
 
 
-@pytest.mark.parametrize("degrees", [-40.0, -25.0, 25.0, 40.0])
+@pytest.mark.parametrize("degrees", [-40.0, 25.0])
 def test_a_signer_who_stands_turned_is_lifted_as_one_who_faces_the_camera(
     truth: FloatArray, degrees: float
 ) -> None:
@@ -183,15 +189,10 @@ def test_shoulders_whose_depths_are_known_in_one_frame_of_two_are_lifted(truth: 
     clip = with_imagined_depths(picture(truth), truth)
     places = clip.body.places.copy()
     places[11, list(SHOULDER.values()), 0] = np.nan
-    two = {
-        part: Points(places=points.places[10:12], confidence=points.confidence[10:12])
-        for part, points in (
-            ("body", replace(clip.body, places=places)),
-            ("left_hand", clip.left_hand),
-            ("right_hand", clip.right_hand),
-        )
-    }
-    found = lift_clip(replace(clip, **two))
+    clip = replace(clip, body=replace(clip.body, places=places))
+    found = lift_clip(
+        clip.with_parts(lambda part, _: Points(places=part.places[10:12], confidence=part.confidence[10:12]))
+    )
     assert np.isfinite(found.positions[:, [*SHOULDER.values(), *WRIST.values()]]).all()
 
 

@@ -23,34 +23,6 @@ def test_images_wait_for_camera_info_and_are_followed_once_it_comes(start):
     bench.send_until(lambda: bench.diagnostics[-1].status[0].level == b"\x00")
 
 
-@pytest.mark.parametrize(
-    ("code", "images"),
-    [
-        ("camera_info_size", {"info": lambda s: take.camera_info(s, scale=2)}),
-        ("depth_size", {"depth": lambda s: take.depth_message(s, scale=2)}),
-        ("wrong_encoding", {"depth": lambda s: take.depth_message(s, encoding="rgb8")}),
-        ("wrong_length", {"color": lambda s: take.color_message(s, data=take.color_message(s).data[:1000])}),
-    ],
-)
-def test_what_cannot_be_used_is_told_and_good_images_are_followed_again(start, code, images):
-    bench = start(take.person())
-    bench.send_until(lambda: bench.summary.startswith(code), **images)
-    assert int(bench.said(f"dropped {code}")) >= 1
-    assert bench.diagnostics[-1].status[0].level == b"\x01"
-    assert bench.recovers()
-
-
-def test_depth_without_a_single_value_is_told_and_recovered_from(start):
-    bench = start(take.person())
-    nothing = np.zeros((take.HEIGHT, take.WIDTH), dtype=np.uint16)
-    bench.send_until(
-        lambda: bench.summary.startswith("no_depth_measured"),
-        depth=lambda stamp: take.image_message(nothing, "16UC1", stamp),
-    )
-    assert bench.arrays
-    assert bench.recovers()
-
-
 def test_what_it_has_no_time_for_is_dropped_for_the_newest_and_counted(context):
     class Slow:
         name = "slow"

@@ -56,6 +56,11 @@ def test_a_leg_twice_as_long_is_beyond_belief() -> None:
     assert not estimate.too_long("thigh", 0.45)
 
 
+def test_hands_differ_less_than_shoulders() -> None:
+    small, large = seen(0.75), seen(1.15)
+    assert 1.0 < large.hand_scale / small.hand_scale < large.scale / small.scale
+
+
 def test_shoulders_that_are_seen_as_an_average_persons_are_put_right() -> None:
     for true in (0.30, 0.36, 0.44):
         seen_width = 0.36 * (true / 0.36) ** (1.0 / 1.4)
@@ -67,11 +72,6 @@ def test_shoulders_that_are_seen_as_an_average_persons_are_put_right() -> None:
             estimate.step(body)
         assert estimate.scale * 0.36 == pytest.approx(true, rel=0.02)
         assert estimate.widening * seen_width == pytest.approx(true, rel=0.02)
-
-
-def test_hands_differ_less_than_shoulders() -> None:
-    small, large = seen(0.75), seen(1.15)
-    assert 1.0 < large.hand_scale / small.hand_scale < large.scale / small.scale
 
 
 NEAR = np.array([0.1, 0.2, 1.8])

@@ -103,4 +103,3 @@ def test_what_is_not_seen_is_held_with_growing_doubt_then_forgotten() -> None:
     sigmas = [float(output.sigma[0, 2]) for output in outputs]
     assert all(later > earlier for earlier, later in pairwise(sigmas[:8]))
     assert math.isnan(outputs[-1].depth[0])
-    assert not filter_.known[0]

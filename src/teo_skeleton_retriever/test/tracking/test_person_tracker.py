@@ -112,12 +112,6 @@ def test_the_nearest_or_the_most_central_is_chosen() -> None:
     assert SignerChoice("central", 3.0).step(0.0, people) == 4
 
 
-def test_a_signer_stays_when_somebody_comes_nearer() -> None:
-    choice = SignerChoice("nearest", 3.0)
-    assert choice.step(0.0, {1: FAR_AHEAD}) == 1
-    assert choice.step(0.1, {1: FAR_AHEAD, 2: NEAR_ASIDE}) == 1
-
-
 def test_a_signer_who_is_hidden_is_waited_for_then_given_up() -> None:
     choice = SignerChoice("nearest", 2.0)
     choice.step(0.0, {1: FAR_AHEAD})
@@ -131,6 +125,6 @@ def test_after_unlocking_the_signer_stays_until_they_leave() -> None:
     choice = SignerChoice("nearest", 0.5)
     choice.lock(1)
     choice.step(0.0, {1: FAR_AHEAD, 2: NEAR_ASIDE})
-    choice.unlock()
+    choice.lock(None)
     assert choice.step(0.1, {1: FAR_AHEAD, 2: NEAR_ASIDE}) == 1
     assert choice.step(1.0, {2: NEAR_ASIDE}) == 2

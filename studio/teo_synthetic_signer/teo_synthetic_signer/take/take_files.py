@@ -21,7 +21,7 @@ from std_msgs.msg import Header
 from teo_sign_msgs.msg import SkeletonArray
 
 from teo_skeleton_retriever.arrays import BoolArray, FloatArray
-from teo_skeleton_retriever.bags.message_types import message_types
+from teo_skeleton_retriever.bags.bag_reader import message_types
 from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25

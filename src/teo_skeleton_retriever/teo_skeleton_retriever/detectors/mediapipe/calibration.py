@@ -149,21 +149,12 @@ _HAND_SIGMA = (0.018, 0.015, 0.011, 0.008, 0.006, 0.0)
 
 
 def extra_hand_sigma(presence: FloatArray) -> FloatArray:
-    """Extra lateral standard deviation of hand keypoints [m]. Shape (n,).
-
-    Args:
-        presence: Confidence of the detector that the hand is there, for each keypoint, 0 to 1. Shape (n,).
-    """
+    """Extra lateral standard deviation of hand keypoints [m], by the detector's confidence. Shapes (n,)."""
     return np.asarray(np.interp(presence, _PRESENCES, _HAND_SIGMA))
 
 
 def body_sigma(across: FloatArray, confidence: FloatArray) -> FloatArray:
-    """Lateral standard deviation of a body's keypoints [m]. Shape (25,).
-
-    Args:
-        across: That of keypoints with a confidence of 1 [m]. Shape (25,).
-        confidence: Of the detector, 0 to 1. Shape (25,).
-    """
+    """Lateral standard deviation of a body's keypoints, by that at a confidence of 1 [m]. Shapes (25,)."""
     told = across.copy()
     told[_WRISTS] = np.interp(_doubt(confidence[_WRISTS]), np.log(_DOUBTS), _WRIST_SIGMA)
     return told

@@ -135,11 +135,8 @@ class HolisticGraph:
     """The running graph; follows one person from image to image.
 
     Calls from several threads are worked on together: the pose of one image while the hands of the one before
-    are still being looked at. Images are taken in the order of the calls.
-
-    Args:
-        min_tracking_confidence: Below which a followed person counts as lost.
-        lite_hands: Look at hands with the smaller of the two networks.
+    are still being looked at. Images are taken in the order of the calls. For the options see
+    `holistic_configuration`.
     """
 
     def __init__(self, *, min_tracking_confidence: float, lite_hands: bool) -> None:
@@ -224,19 +221,10 @@ def _landmarks(packets: Mapping[str, Packet | None]) -> HolisticLandmarks:
         best = packet_getter.get_proto(packet).classification[0]
         return float(best.score if best.label == _MIRRORED[part] else 1.0 - best.score)
 
-    return HolisticLandmarks(
-        pose=table("pose"),
-        left_hand=table("left_hand"),
-        right_hand=table("right_hand"),
-        face=table("face"),
-        left_hand_world=table("left_hand_world"),
-        right_hand_world=table("right_hand_world"),
-        left_hand_score=score("left_hand"),
-        right_hand_score=score("right_hand"),
-        face_score=score("face"),
-        left_hand_side=side("left_hand"),
-        right_hand_side=side("right_hand"),
-    )
+    found: dict[str, Any] = {part: table(part) for part in _LANDMARKS}
+    found |= {f"{part}_score": score(part) for part in _SCORES}
+    found |= {f"{part}_side": side(part) for part in _SIDES}
+    return HolisticLandmarks(**found)
 
 
 def _table(landmarks: Iterable[Any], part: str) -> FloatArray:

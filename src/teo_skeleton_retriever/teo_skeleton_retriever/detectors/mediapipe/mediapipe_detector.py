@@ -13,7 +13,6 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from functools import partial
-from typing import NamedTuple
 
 import numpy as np
 
@@ -27,29 +26,14 @@ from teo_skeleton_retriever.layouts.person_2d import Person2D, midpoint
 
 _NOTHING = np.zeros((0, 3))
 
-# Small toes have no counterpart.
-BODY_25_FROM_POSE: dict[str, int] = {
-    "Nose": 0,
-    "RShoulder": 12,
-    "RElbow": 14,
-    "RWrist": 16,
-    "LShoulder": 11,
-    "LElbow": 13,
-    "LWrist": 15,
-    "RHip": 24,
-    "RKnee": 26,
-    "RAnkle": 28,
-    "LHip": 23,
-    "LKnee": 25,
-    "LAnkle": 27,
-    "REye": 5,
-    "LEye": 2,
-    "REar": 8,
-    "LEar": 7,
-    "LBigToe": 31,
-    "LHeel": 29,
-    "RBigToe": 32,
-    "RHeel": 30,
+# From the shoulders down left landmarks are odd, the right ones next to them. Small toes have no counterpart.
+BODY_25_FROM_POSE: dict[str, int] = {"Nose": 0, "LEye": 2, "REye": 5, "LEar": 7, "REar": 8} | {
+    f"{side}{joint}": left + (side == "R")
+    for side in "LR"
+    for joint, left in (
+        *(("Shoulder", 11), ("Elbow", 13), ("Wrist", 15)),
+        *(("Hip", 23), ("Knee", 25), ("Ankle", 27), ("Heel", 29), ("BigToe", 31)),
+    )
 }
 # Keypoints that MediaPipe does not give: mean of two, with the lower confidence.
 _BODY_25_FROM_PAIRS: dict[str, tuple[str, str]] = {
@@ -232,18 +216,14 @@ def _in_unit_range(name: str, value: float) -> float:
 _LEAST_SIDE = 0.3
 
 
-class _OwnHands(NamedTuple):
-    """Whether the left and the right hand are there and on the side they were taken for."""
+def own_hands(landmarks: HolisticLandmarks) -> tuple[bool, bool]:
+    """Whether the left and the right hand are there and on the side they were taken for.
 
-    left: bool
-    right: bool
-
-
-def own_hands(landmarks: HolisticLandmarks) -> _OwnHands:
-    """Tell which hands are on the side they were taken for; a single hand always counts as such."""
+    A single hand always counts as such.
+    """
     if landmarks.left_hand is None or landmarks.right_hand is None:
-        return _OwnHands(landmarks.left_hand is not None, landmarks.right_hand is not None)
-    return _OwnHands(landmarks.left_hand_side >= _LEAST_SIDE, landmarks.right_hand_side >= _LEAST_SIDE)
+        return landmarks.left_hand is not None, landmarks.right_hand is not None
+    return landmarks.left_hand_side >= _LEAST_SIDE, landmarks.right_hand_side >= _LEAST_SIDE
 
 
 # Where hands come close, both crops may settle on the same hand: in a rendered take of two hands on each

@@ -38,23 +38,13 @@ class Sighting(NamedTuple):
     """middle of the face's box, in [0, 1] of width and height. Shape (2,)"""
 
     def is_of(self, pose: FloatArray, *, width: int, height: int) -> bool:
-        """Tell whether this is the person of a pose.
-
-        Args:
-            pose: Its first columns are x, y in [0, 1] of width and height. Shape (33, k).
-            width: Of the image [px].
-            height: Likewise.
-        """
+        """Tell whether this is the person of a pose, x, y in [0, 1] of width and height [px] and more."""
         off = (pose[_NOSE, :2] - self.face) * [width, height]
         return float(np.hypot(*off)) < _SAME_FACE * float(self.region.height) * height
 
 
 class PeopleGraph:
-    """Finds people in single images. Not to be used by two threads at once.
-
-    Args:
-        min_detection_confidence: Below which a person does not count.
-    """
+    """Finds people in single images. Not to be used by two threads at once."""
 
     def __init__(self, *, min_detection_confidence: float) -> None:
         self._found: dict[str, Any] = {}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 from capsule_person import ROW, person_2d, pose
 
 from teo_skeleton_retriever.detectors.mediapipe.calibration import (
@@ -50,23 +49,16 @@ ACROSS, POINTED = 1.0, 0.4  # parts of a forearm's length that are seen
 
 
 def test_an_elbow_is_farther_off_the_less_sure_the_detector_and_the_more_the_forearm_points() -> None:
-    confidences = (1.0, 0.99, 0.96, 0.9, 0.5, 0.0)
+    """And it is seen too near to the shoulder only where the forearm points at the camera."""
     across, between, pointed = (
-        [elbow_error(confidence, forearm).sigma for confidence in confidences]
+        [elbow_error(confidence, forearm) for confidence in (1.0, 0.99, 0.96, 0.9, 0.0)]
         for forearm in (ACROSS, 0.75, POINTED)
     )
-    for sigmas in (across, pointed):
-        assert sigmas == sorted(sigmas)
-        assert sigmas[0] == pytest.approx(0.02)
-        assert sigmas[-1] < 0.12
+    assert pointed == sorted(pointed)
+    assert across == sorted(across)
+    assert {error.short for error in across} == {0.0}
+    assert (pointed[0].short, pointed[0].sigma) == (0.0, across[0].sigma)
+    assert 0.04 < pointed[-1].short < 0.06
     for least, middle, most in zip(across[1:4], between[1:4], pointed[1:4], strict=True):
-        assert 1.5 * least < most
-        assert least < middle < most
-
-
-def test_only_an_elbow_whose_forearm_points_at_the_camera_is_seen_too_near_to_the_shoulder() -> None:
-    short = [elbow_error(confidence, POINTED).short for confidence in (1.0, 0.99, 0.97, 0.9, 0.0)]
-    assert short == sorted(short)
-    assert short[0] == 0.0
-    assert 0.04 < short[-1] < 0.06
-    assert elbow_error(0.9, ACROSS).short == 0.0
+        assert 1.5 * least.sigma < most.sigma
+        assert least.sigma < middle.sigma < most.sigma
