@@ -20,7 +20,7 @@ from functools import cache
 from pathlib import Path
 
 from teo_common.text_folding import fold
-from teo_sign_translator.data_files import data_file, read_listed, read_rows, read_sections
+from teo_sign_translator.data_files import read_listed, read_rows, read_sections
 from teo_sign_translator.morphology import TAGS, Reading
 from teo_sign_translator.pointer import Hypothesis, OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
@@ -90,17 +90,14 @@ class PipelineWords:
 
     @classmethod
     @cache
-    def load(cls, folder: Path | None = None) -> PipelineWords:
+    def load(cls, folder: Path) -> PipelineWords:
         """Read the file of a language's text folder, once.
-
-        Args:
-            folder: By default that of the default language.
 
         Raises:
             TranslationError: "invalid_data" naming file and field.
         """
         sections = {"completeness": CompletenessWords, "persons": PersonWords}
-        return cls(**read_sections((folder or data_file("")) / _FILE, sections))
+        return cls(**read_sections(folder / _FILE, sections))
 
 
 #: Of a gloss that was put back: its word is right, its place a guess. Below the translator's threshold, so
@@ -206,16 +203,12 @@ class Completeness:
     tags: frozenset[str]
 
     @classmethod
-    def load(cls, folder: Path | None = None) -> Completeness:
-        """With a language's lists of words, `pipeline.yaml` and `reading.yaml`.
-
-        Args:
-            folder: The language's text folder; by default that of the default language.
+    def load(cls, folder: Path) -> Completeness:
+        """Read the lists of words, `pipeline.yaml` and `reading.yaml` of a language's text folder.
 
         Raises:
             TranslationError: "invalid_data", with file and line.
         """
-        folder = folder or data_file("")
         return cls(
             FunctionWords.load(folder / "function_words.tsv"),
             read_gloss_words(folder / "gloss_words.tsv"),
