@@ -5,22 +5,15 @@ from __future__ import annotations
 from functools import cache
 
 import pytest
-from loaded import morphology, translator
+from loaded import TEXT, morphology, read, translator
 
 from teo_sign_training.corpus.generator import Generator
 from teo_sign_training.corpus.paper_pairs import memorised_pairs
 from teo_sign_training.fitting.fitting import ZOO
-from teo_sign_translator.data_files import data_file
 from teo_sign_translator.model_files import available_models, models_directory, read_card
 from teo_sign_translator.pointer import load_sentence_model
 from teo_sign_translator.pointer.config import POINTER, NetworkConfig
 from teo_sign_translator.pointer.decoding import SentenceModel
-from teo_sign_translator.text.source_word import SourceWord
-from teo_sign_translator.text.source_words import source_words
-
-
-def read(sentence: str) -> tuple[SourceWord, ...]:
-    return source_words(sentence, morphology())
 
 
 @cache
@@ -46,7 +39,7 @@ def test_the_projects_pairs_come_out_exactly() -> None:
 @pytest.mark.slow
 def test_the_scores_on_the_card_hold_for_sentences_made_anew() -> None:
     scores = read_card(POINTER)["result"]["scores"]
-    pairs = Generator.load(data_file("grammar"), morphology()).pairs(5000, seed=7)
+    pairs = Generator.load(TEXT / "grammar", morphology()).pairs(5000, seed=7)
     made = [pair for pair in pairs if pair.split in scores]
     claimed = sum(scores[pair.split]["exact"] for pair in made)
     right = sum(_translated(pair.text) == " ".join(pair.glosses) for pair in made)
