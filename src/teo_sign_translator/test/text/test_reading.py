@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from refusals import refused
 
-from teo_sign_translator.text.cleaning import clean
+from teo_sign_translator.text.cleaning import MAX_TEXT_LENGTH, clean
 from teo_sign_translator.text.reading import SentenceType, is_negated, read, sentence_type
 from teo_sign_translator.text.rules import TextRules
 
@@ -31,9 +31,11 @@ def test_cleaning_reports_control_characters() -> None:
     assert clean("a\x00b\x1bc").ignored == ("\x00", "\x1b")
 
 
-def test_cleaning_refuses_lost_characters() -> None:
+def test_cleaning_refuses_lost_characters_and_texts_without_end() -> None:
     with refused("broken_encoding"):
         clean("d\udced")
+    with refused("text_too_long", str(MAX_TEXT_LENGTH)):
+        clean("a" * (MAX_TEXT_LENGTH + 1))
 
 
 def _words(text: str) -> list[list[str]]:
