@@ -102,7 +102,7 @@ class PipelineWords:
 
 #: Of a gloss that was put back: its word is right, its place a guess. Below the translator's threshold, so
 #: that its sentence is called uncertain.
-PUT_BACK_CONFIDENCE = 0.2
+_PUT_BACK_CONFIDENCE = 0.2
 
 #: Of a courtesy: it stands first or last, as typed, and changes nothing else in the sentence.
 _COURTESY_CONFIDENCE = 0.9
@@ -261,7 +261,7 @@ class Completeness:
             index = len(glosses)
             if not reading.tag.startswith(_LAST):
                 index = self._beside(place, words, glosses)
-            gloss = OutputGloss(copied_gloss(reading), (place,), PUT_BACK_CONFIDENCE, copied=True)
+            gloss = OutputGloss(copied_gloss(reading), (place,), _PUT_BACK_CONFIDENCE, copied=True)
             glosses.insert(index, gloss)
             put_back.insert(index, True)
         courtesy = self._courtesy(words)

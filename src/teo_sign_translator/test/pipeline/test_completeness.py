@@ -10,10 +10,7 @@ from loaded import TEXT, read
 from teo_sign_languages import load_language
 from teo_sign_training.corpus.generator import Generator
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.pipeline.completeness import (
-    PUT_BACK_CONFIDENCE,
-    Completeness,
-)
+from teo_sign_translator.pipeline.completeness import Completeness
 from teo_sign_translator.pointer import Hypothesis, OutputGloss
 from teo_sign_translator.text.source_words import source_words
 
@@ -128,12 +125,6 @@ def test_questions_negations_names_numbers_courtesies_are_put_back(
 )
 def test_a_word_is_carried_over_as_often_as_it_is_there(sentence: str, said: str, completed: str) -> None:
     assert _completed(sentence, said) == completed
-
-
-def test_what_is_put_back_is_marked_and_makes_its_sentence_uncertain() -> None:
-    result = Completeness.load(TEXT).complete(read("La niña bebe leche."), [_hypothesis("NIÑA(1) LECHE(3)")])
-    back = [gloss for gloss, put in zip(result.glosses, result.put_back, strict=True) if put]
-    assert [(gloss.gloss, gloss.probability) for gloss in back] == [("BEBER", PUT_BACK_CONFIDENCE)]
 
 
 def test_a_sentence_of_function_words_alone_has_them_all() -> None:
