@@ -22,6 +22,7 @@ SIGNS = {
     "CASA": "measured", "YO": "described", "COCHE": "reviewed", "DINERO": "recorded", "MÁQUINA": "recorded",
     "PERRO": "sketched",
 }  # fmt: skip
+GUESS = "PERRO (a guess so far)"
 TEXT = "Mi perro está en casa.\n\nYo tengo 7 autos, Ana.\nMi cajero.\n"
 
 
@@ -46,11 +47,13 @@ def _run(*arguments: str, table: Path | None = None) -> Result:
 def test_a_text_is_shown_word_by_word_with_what_is_wanted_next(table: Path) -> None:
     result = _run("--text", TEXT, table=table)
     assert result.exit_code == 0
-    rows = [re.split(r"\s{2,}", line.strip())[:2] for line in result.stdout.splitlines()]
+    rows = [re.split(r"\s{2,}", line.strip()) for line in result.stdout.splitlines()]
     shown = {"CASA": "CASA", "AUTO": "COCHE", "CAJERO": "DINERO MÁQUINA", "PERRO": "P-E-RR-O", "7": "7"}
-    assert [word for word, signs in shown.items() if [word, signs] not in rows] == []
-    assert ["MI", "2"] in rows
-    assert ["PERRO (a guess so far)", "1"] in rows
+    assert [word for word, signs in shown.items() if [word, signs] not in [row[:2] for row in rows]] == []
+    wanted = [(row[0], row[1], row[-1]) for row in rows if len(row) == 4]
+    first = "Mi perro está en casa."
+    assert wanted == [("wanted next", "times", "first in"), ("MI", "2", first), (GUESS, "1", first)]
+    assert GUESS not in _run("--text", TEXT, "--wanted", "1", table=table).stdout
     assert "not signed: está en" in result.stdout
 
 

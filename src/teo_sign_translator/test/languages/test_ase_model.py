@@ -15,6 +15,7 @@ from teo_sign_translator.output.sign_coverage import read_signs
 from teo_sign_translator.output.translation import Kind
 from teo_sign_translator.pipeline.completeness import Completeness
 from teo_sign_translator.pipeline.translator import Translator
+from teo_sign_translator.text.reading import SentenceType
 from teo_sign_translator.text.source_words import source_words
 
 ASE = load_language("ase")
@@ -63,6 +64,15 @@ def test_a_word_without_a_sign_is_spelled_in_letters_of_the_language(translator:
     spelled = [token.gloss for token in sentence.tokens if token.kind is Kind.LETTER]
     assert spelled == list("BLORPLL")
     assert {token.gloss for token in sentence.tokens if token.kind is Kind.LEXICAL} <= signs
+
+
+def test_a_sentence_has_its_kind_and_negation(translator: Translator) -> None:
+    sentences = translator.translate("Are you deaf? Where is she? I don't know!").sentences
+    assert [(sentence.type, sentence.negated) for sentence in sentences] == [
+        (SentenceType.YES_NO_QUESTION, False),
+        (SentenceType.WH_QUESTION, False),
+        (SentenceType.EXCLAMATION, True),
+    ]
 
 
 def test_no_gloss_comes_from_nowhere(translator: Translator) -> None:

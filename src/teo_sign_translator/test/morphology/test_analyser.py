@@ -15,7 +15,7 @@ from refusals import refused
 from teo_sign_translator.morphology import TAGS, Reading, lexicon, tag_class
 from teo_sign_translator.morphology.readings import VERB_TAGS
 
-#: Words and their likeliest readings; `~` is not exact. Of the lexicon, with pronouns, derived, unknown.
+#: Words and their likeliest readings; `~` is not exact. Of the lexicon, with pronouns, derived.
 LIKELIEST = """
     vino: vino N:ms | casa: casa N:fs | para: para PREP | nada: nada PRON:neg | río: río N:ms |
     cara: cara N:fs | música: música N:fs | llama: llamar V:ind:pres:3s |
@@ -44,7 +44,9 @@ LIKELIEST = """
     pececito: pez N:ms | trenecito: tren N:ms | amiguito: amigo N:ms | pobrecita: pobre A:cs |
     poquito: poco DET:quant:ms | ahorita: ahora ADV:time:present | buenísima: bueno A:fs |
     riquísimos: rico A:mp | facilísimo: fácil A:cs | amabilísima: amable A:cs |
-    muchísimo: mucho DET:quant:ms |
+    muchísimo: mucho DET:quant:ms
+"""
+GUESSED = """
     guglear: guglear V:inf ~ | gugleando: guglear V:ger ~ | guglearon: guglear V:ind:pret:3p ~ |
     gnomines: gnomín X ~ | xilofonaciones: xilofonación N:fp ~ | zurdismo: zurdismo N:ms ~ |
     trombonistas: trombonista N:cp ~ | gnomones: gnomón X ~ | zarzabuques: zarzabuque X ~ |
@@ -61,11 +63,18 @@ def read(word: str) -> list[str]:
     ]
 
 
-@pytest.mark.parametrize(
-    ("word", "reading"), [row.split(": ", 1) for row in " ".join(LIKELIEST.split()).split(" | ")]
-)
+def rows(table: str) -> list[list[str]]:
+    return [row.split(": ", 1) for row in " ".join(table.split()).split(" | ")]
+
+
+@pytest.mark.parametrize(("word", "reading"), rows(LIKELIEST))
 def test_the_likeliest_reading_is_first(word: str, reading: str) -> None:
     assert read(word)[0] == reading
+
+
+@pytest.mark.parametrize(("word", "reading"), rows(GUESSED))
+def test_unknown_words_are_guessed_by_their_ending(word: str, reading: str) -> None:
+    assert read(word) == [reading]
 
 
 @pytest.mark.parametrize(
