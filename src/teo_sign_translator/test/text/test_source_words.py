@@ -55,6 +55,7 @@ def _forms(sentence: str) -> list[str]:
         ("el 12.10.2024, 1.000,50 € y dos mil", "el|12|octubre|2024|,|1000,50|euros|y|2000"),
         ("un año, cien, dieciseis, siete ocho", "un|año|,|100|,|16|,|7|8"),
         ("una casa, treinta y pico, quinientas veinte", "una|casa|,|30|y|pico|,|520"),
+        ("mil cero, ciento cero", "1000|0|,|100|0"),
         ("carísimo, riquisimas y el mismísimo rey", "muy|caro|,|muy|ricas|y|el|mismísimo|rey"),
         ("un puesto en la uni entre semana", "un|puesto|en|la|universidad|de|lunes|a|viernes"),
         ("t digo q a las 5 d la tarde m voy", "te|digo|que|a|las|5|de|la|tarde|me|voy"),
