@@ -27,7 +27,7 @@ setup(
             "translator_node = teo_sign_translator.node.translator_node:main",
             "translate = teo_sign_translator.cli.translate:main",
             "generate_corpus = teo_common.installed_packages:main",
-            "build_morphology = teo_sign_translator.morphology.conjugation_build:main",
+            "build_morphology = teo_common.installed_packages:main",
             "train = teo_common.installed_packages:main",
             "evaluate = teo_common.installed_packages:main",
             "compare = teo_common.installed_packages:main",

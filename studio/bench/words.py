@@ -25,9 +25,8 @@ from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.morphology.readings import tag_class
 from teo_sign_translator.output.output_words import lexical
-from teo_sign_translator.output.sign_choice import SignChooser
+from teo_sign_translator.output.sign_choice import SignChooser, SubstituteLists, Substitutes
 from teo_sign_translator.output.sign_coverage import Coverage, Showing
-from teo_sign_translator.output.substitutes import SubstituteLists, Substitutes
 from teo_sign_translator.output.translation import Kind as OutputKind
 from teo_sign_translator.output.translation import Sentence
 from teo_sign_translator.pipeline.translator import Translator

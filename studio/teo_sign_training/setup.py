@@ -31,6 +31,7 @@ setup(
     entry_points={
         # What `ros2 run PACKAGE NAME` runs of packages that are without these commands.
         "teo.commands": [
+            "build_morphology = teo_sign_training.cli.build_morphology:main",
             "compare = teo_sign_training.cli.compare:main",
             "evaluate = teo_sign_training.cli.evaluate:main",
             "generate_corpus = teo_sign_training.cli.generate_corpus:main",

@@ -15,7 +15,14 @@ from package_folders import FOLDERS
 
 COMMANDS = {
     "teo_sign_capture": ("capture_letters", "capture_scores", "draw_signwriting", "perform_scores"),
-    "teo_sign_translator": ("compare", "evaluate", "generate_corpus", "reproduce_paper", "train"),
+    "teo_sign_translator": (
+        "build_morphology",
+        "compare",
+        "evaluate",
+        "generate_corpus",
+        "reproduce_paper",
+        "train",
+    ),
     "teo_skeleton_retriever": ("sensor_study", "synthesize"),
 }
 # As if nothing of the studio were installed.

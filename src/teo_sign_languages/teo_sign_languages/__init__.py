@@ -5,7 +5,6 @@
 ``load_language("ssp")`` is Spanish Sign Language; its ``text`` is the folder of what is known of Spanish.
 """
 
-from teo_sign_languages.errors import LanguageError
 from teo_sign_languages.language import (
     DEFAULT_LANGUAGE,
     Language,
@@ -13,7 +12,14 @@ from teo_sign_languages.language import (
     load_language,
     user_languages_directory,
 )
-from teo_sign_languages.language_file import Alphabet, HeadGrammar, HeadMove, LetterClips, Numbers
+from teo_sign_languages.language_file import (
+    Alphabet,
+    HeadGrammar,
+    HeadMove,
+    LanguageError,
+    LetterClips,
+    Numbers,
+)
 
 __all__ = [
     "DEFAULT_LANGUAGE",

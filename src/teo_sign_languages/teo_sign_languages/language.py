@@ -11,8 +11,7 @@ from pathlib import Path
 import msgspec
 
 from teo_common.installed_packages import package_path
-from teo_sign_languages.errors import LanguageError
-from teo_sign_languages.language_file import FILE, LanguageFile, read_language_file
+from teo_sign_languages.language_file import FILE, LanguageError, LanguageFile, read_language_file
 
 #: The language that is signed where none is named: Spanish Sign Language, the project's first.
 DEFAULT_LANGUAGE = "ssp"
@@ -104,7 +103,5 @@ def _read(folder: Path) -> Language:
         raise LanguageError(
             "invalid_language",
             f"{file}, field code: expected the folder's name {folder.name!r}, got {read.code!r}",
-            str(file),
-            "code",
         )
     return Language(directory=folder, **msgspec.structs.asdict(read))

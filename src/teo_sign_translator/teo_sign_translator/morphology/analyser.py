@@ -153,15 +153,12 @@ class Morphology:
         return readings
 
     def _candidates(self, form: str, folded: str, *, capital: bool) -> list[Candidate]:
-        listed = list(self._listed(form, folded, capital))
-        return self._words.unlisted(form, folded, listed, self._by_folded)
-
-    def _listed(self, form: str, folded: str, capital: bool) -> Iterator[Candidate]:
+        listed: list[Candidate] = []
         for (written, lemma, tag), source in self._by_folded.get(folded, ()):
             cost = effort(written.lower(), form)
-            if capital and tag.startswith("NAME:"):
-                source = -1
-            yield Candidate(cost, source, Reading(lemma, tag, exact=cost == EXACT))
+            place = -1 if capital and tag.startswith("NAME:") else source
+            listed.append(Candidate(cost, place, Reading(lemma, tag, exact=cost == EXACT)))
+        return self._words.unlisted(form, folded, listed, self._by_folded)
 
 
 def _distinct(readings: Iterable[Reading]) -> tuple[Reading, ...]:

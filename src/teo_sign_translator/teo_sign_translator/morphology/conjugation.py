@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from teo_common.text_folding import strip_marks
-from teo_sign_translator.data_files import data_file, read_rows
+from teo_sign_translator.data_files import read_rows
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import lexicon
 from teo_sign_translator.morphology.lexicon import (
@@ -65,7 +65,7 @@ def _likelihood(tag: str) -> tuple[int, bool]:
     return rank, person != "3s"
 
 
-class VerbForm(NamedTuple):
+class _VerbForm(NamedTuple):
     """One form of a verb: what it is, and how it is written."""
 
     infinitive: str
@@ -109,12 +109,12 @@ class Conjugations:
         """Endings of a known verb that are typed like this without marks, each with its tag."""
         return self._verbs[infinitive][1].by_folded.get(folded, [])
 
-    def readings(self, folded: str) -> Iterator[VerbForm]:
+    def readings(self, folded: str) -> Iterator[_VerbForm]:
         """Every verb form that is typed like this without marks; of equals, the likelier tag first."""
         for cut in range(len(folded) + 1):
             for stem, paradigm in self._stems.get(folded[:cut], ()):
                 for ending, tag in paradigm.by_folded.get(folded[cut:], ()):
-                    yield VerbForm(stem + paradigm.infinitive, tag, stem + ending)
+                    yield _VerbForm(stem + paradigm.infinitive, tag, stem + ending)
 
 
 def _read_paradigm(columns: list[str], place: str) -> _Paradigm:
@@ -193,19 +193,15 @@ _SPOKEN_PARTICIPLE = re.compile(r"(?P<stem>\w{2,})ao(?P<plural>s?)")
 class ConjugatedForms:
     """`WordForms` of a language whose text folder has `morphology/conjugations.tsv`."""
 
-    def __init__(self, folder: Path | None = None) -> None:
-        """Read the lists and the table.
-
-        Args:
-            folder: The language's text folder; by default that of the default language.
+    def __init__(self, folder: Path) -> None:
+        """Read the lists and the table of a language's text folder.
 
         Raises:
             TranslationError: "invalid_data" if a file is damaged.
         """
         self._folder = folder
-        table = "morphology/conjugations.tsv"
-        self._conjugations = Conjugations(folder / table if folder else data_file(table))
-        self._everyday = {verb.lemma for verb in lexicon.verbs(folder)}
+        self._conjugations = Conjugations(folder / "morphology/conjugations.tsv")
+        self._everyday = frozenset(lexicon.verbs(folder))
 
     def entries(self) -> Iterator[Entry]:
         """See `WordForms`."""

@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The lists of a language's lexicon, the forms of their words, and candidates for the words of a text.
 
-Each reader of a list takes the language's text folder, which holds `lexicon`; by default that of the default
-language.
+Each reader of a list takes the language's text folder, which holds `lexicon`.
 """
 
 from __future__ import annotations
@@ -13,7 +12,7 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple, Protocol
 
-from teo_sign_translator.data_files import data_file, read_rows, words_of
+from teo_sign_translator.data_files import read_rows, words_of
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology.readings import Reading
 from teo_sign_translator.morphology.spanish import accents_fit, feminine, is_invariable, plural
@@ -69,22 +68,16 @@ class Form(NamedTuple):
     tag: str
 
 
-class Noun(NamedTuple):
-    """A row of nouns.tsv; `irregular` has the forms that rules do not give, by "p" and "f"."""
+class Nominal(NamedTuple):
+    """A noun or adjective: a row of nouns.tsv or adjectives.tsv.
 
+    `kind` is "N" or "A"; `irregular` has the forms that rules do not give, by "p" and "f".
+    """
+
+    kind: str
     lemma: str
     gender: str
     classes: tuple[str, ...]
-    irregular: dict[str, str]
-
-
-class Adjective(NamedTuple):
-    """A row of adjectives.tsv; `use` is "ser", "estar" or "both"."""
-
-    lemma: str
-    gender: str
-    classes: tuple[str, ...]
-    use: str
     irregular: dict[str, str]
 
 
@@ -95,13 +88,6 @@ class Adverb(NamedTuple):
     kind: str
 
 
-class Verb(NamedTuple):
-    """A row of verbs.tsv; `reflexive` is "no", "also" or "mostly"."""
-
-    lemma: str
-    reflexive: str
-
-
 class Name(NamedTuple):
     """A row of names.tsv; `kind` is "m", "f", "surname", "country", "continent", "region" or "city"."""
 
@@ -110,33 +96,27 @@ class Name(NamedTuple):
 
 
 @cache
-def nouns(folder: Path | None = None) -> tuple[Noun, ...]:
+def nouns(folder: Path) -> tuple[Nominal, ...]:
     """The common nouns."""
     return tuple(
-        Noun(
-            lemma, _known(gender, _GENDERS, place), _classes(classes, NOUN_CLASSES, place), _irregular(forms)
-        )
+        _nominal("N", lemma, gender, _classes(classes, NOUN_CLASSES, place), forms, place)
         for place, (lemma, gender, classes, forms) in _rows("nouns", 4, folder)
     )
 
 
 @cache
-def adjectives(folder: Path | None = None) -> tuple[Adjective, ...]:
+def adjectives(folder: Path) -> tuple[Nominal, ...]:
     """The common adjectives."""
-    return tuple(
-        Adjective(
-            lemma,
-            _known(gender, _GENDERS, place),
-            _classes(classes, ADJECTIVE_CLASSES, place),
-            _known(use, _USES, place),
-            _irregular(forms),
-        )
-        for place, (lemma, gender, classes, use, forms) in _rows("adjectives", 5, folder)
-    )
+    found: list[Nominal] = []
+    for place, (lemma, gender, classes, use, forms) in _rows("adjectives", 5, folder):
+        _known(use, _USES, place)
+        known = _classes(classes, ADJECTIVE_CLASSES, place)
+        found.append(_nominal("A", lemma, gender, known, forms, place))
+    return tuple(found)
 
 
 @cache
-def adverbs(folder: Path | None = None) -> tuple[Adverb, ...]:
+def adverbs(folder: Path) -> tuple[Adverb, ...]:
     """The common adverbs."""
     return tuple(
         Adverb(lemma, _known(kind, ADVERB_TAGS, place))
@@ -145,16 +125,17 @@ def adverbs(folder: Path | None = None) -> tuple[Adverb, ...]:
 
 
 @cache
-def verbs(folder: Path | None = None) -> tuple[Verb, ...]:
-    """The verbs of everyday use."""
-    return tuple(
-        Verb(lemma, _known(reflexive, _REFLEXIVE, place))
-        for place, (lemma, reflexive) in _rows("verbs", 2, folder)
-    )
+def verbs(folder: Path) -> tuple[str, ...]:
+    """The infinitives of everyday use."""
+    found: list[str] = []
+    for place, (lemma, reflexive) in _rows("verbs", 2, folder):
+        _known(reflexive, _REFLEXIVE, place)
+        found.append(lemma)
+    return tuple(found)
 
 
 @cache
-def names(folder: Path | None = None) -> tuple[Name, ...]:
+def names(folder: Path) -> tuple[Name, ...]:
     """Names of people and places."""
     return tuple(
         Name(name, _known(kind, NAME_TAGS, place)) for place, (name, kind) in _rows("names", 2, folder)
@@ -176,30 +157,30 @@ def inflected_words(folder: Path, name: str, columns: int) -> Iterator[Inflected
         yield Inflected(row[0], _irregular(row[-1]))
 
 
-def closed_class_forms(folder: Path | None = None) -> Iterator[Form]:
+def closed_class_forms(folder: Path) -> Iterator[Form]:
     """The forms of closed_classes.tsv, of equals the likeliest first."""
     for _, (form, lemma, tag) in _rows("closed_classes", 3, folder):
         yield Form(form.replace("_", " "), lemma, tag)
 
 
-def preferences(folder: Path | None = None) -> dict[str, tuple[str, ...]]:
+def preferences(folder: Path) -> dict[str, tuple[str, ...]]:
     """For forms whose usual order of readings is not the likeliest: lemmas and tag classes in their order."""
     return {form: tuple(order.split()) for _, (form, order) in _rows("preferences", 2, folder)}
 
 
-def nominal_forms(word: Noun | Adjective) -> Iterator[Form]:
+def nominal_forms(word: Nominal) -> Iterator[Form]:
     """All forms of a noun or adjective."""
-    kind = "N" if isinstance(word, Noun) else "A"
-    gender = _GENDERS[word.gender]
+    tag = f"{word.kind}:{_GENDERS[word.gender]}"
     if word.gender in ("mp", "fp"):
-        yield Form(word.lemma, word.lemma, f"{kind}:{gender}p")
-        return
-    if word.gender == "inv":
-        yield Form(word.lemma, word.lemma, f"{kind}:{gender}n")
-        return
-    yield from _numbers(word.lemma, word.lemma, f"{kind}:{gender}", word.irregular.get("p"))
+        yield Form(word.lemma, word.lemma, tag + "p")
+    elif word.gender == "inv":
+        yield Form(word.lemma, word.lemma, tag + "n")
+    else:
+        yield from _numbers(word.lemma, word.lemma, tag, word.irregular.get("p"))
     if word.gender == "m+f":
-        yield from _numbers(word.irregular.get("f") or feminine(word.lemma), word.lemma, f"{kind}:f", None)
+        yield from _numbers(
+            word.irregular.get("f") or feminine(word.lemma), word.lemma, f"{word.kind}:f", None
+        )
 
 
 def _numbers(singular: str, lemma: str, tag: str, irregular: str | None) -> Iterator[Form]:
@@ -211,11 +192,15 @@ def _numbers(singular: str, lemma: str, tag: str, irregular: str | None) -> Iter
         yield Form(several, lemma, tag + "p")
 
 
-def _rows(name: str, columns: int, folder: Path | None) -> Iterator[tuple[str, list[str]]]:
+def _rows(name: str, columns: int, folder: Path) -> Iterator[tuple[str, list[str]]]:
     """The rows of a list, each with its place for messages."""
-    path = folder / "lexicon" / f"{name}.tsv" if folder else data_file(f"lexicon/{name}.tsv")
+    path = folder / "lexicon" / f"{name}.tsv"
     for number, row in read_rows(path, columns):
         yield f"{path}, line {number}", row
+
+
+def _nominal(kind: str, lemma: str, gender: str, classes: tuple[str, ...], forms: str, place: str) -> Nominal:
+    return Nominal(kind, lemma, _known(gender, _GENDERS, place), classes, _irregular(forms))
 
 
 def _irregular(column: str) -> dict[str, str]:
@@ -288,11 +273,11 @@ def effort(written: str, typed: str) -> int:
     return ACCENTS_MISSING if accents_fit(written, typed) else ACCENTS_WRONG
 
 
-def listed_entries(folder: Path | None, nominal: Iterable[Entry]) -> Iterator[Entry]:
+def listed_entries(folder: Path, nominal: Iterable[Entry]) -> Iterator[Entry]:
     """The entries of a language's lists.
 
     Args:
-        folder: The language's text folder; by default that of the default language.
+        folder: The language's text folder.
         nominal: Those of its nouns, adjectives and, where they are listed, verbs.
     """
     for adverb in adverbs(folder):

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from teo_common.parameters import AUTOSTART, ParameterRow
 from teo_sign_languages import DEFAULT_LANGUAGE
-from teo_sign_translator.output.substitutes import Substitutes
+from teo_sign_translator.output.sign_choice import Substitutes
 from teo_sign_translator.pipeline.pointer_back_end import DEFAULT_BEAM_WIDTH
 from teo_sign_translator.pipeline.translator import DEFAULT_MIN_CONFIDENCE, DEFAULT_MODEL
 

@@ -8,6 +8,7 @@ import threading
 import traceback
 import uuid
 from collections.abc import Iterable, Sequence
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from rcl_interfaces.msg import SetParametersResult
@@ -27,8 +28,8 @@ from teo_sign_translator.node.diagnostics import Statistics, diagnose, quoted, s
 from teo_sign_translator.node.parameters import PARAMETERS, SIGN_TOKENS_DEPTH
 from teo_sign_translator.node.sign_inventory import SignInventory
 from teo_sign_translator.node.text_worker import TextWorker
-from teo_sign_translator.output.sign_coverage import listed_signs
-from teo_sign_translator.output.substitutes import Substitutes
+from teo_sign_translator.output.sign_choice import Substitutes
+from teo_sign_translator.output.sign_coverage import read_signs
 from teo_sign_translator.output.translation import Translation
 from teo_sign_translator.pipeline.translator import Translator
 
@@ -98,7 +99,7 @@ class TranslatorNode(SelfStartingNode):
         """Load the model; serve `translate` and publish diagnostics."""
         try:
             translator = self._load({})
-            listed = listed_signs(self._value("signs_file"))
+            listed = _listed_signs(self._value("signs_file"))
         except TranslationError as error:
             self.get_logger().error(f"cannot be configured: [{error.code}] {error}")
             return TransitionCallbackReturn.FAILURE
@@ -290,7 +291,7 @@ class TranslatorNode(SelfStartingNode):
             if _OF_THE_MODEL & asked.keys():
                 self._next_translator = self._load(asked)
             if "signs_file" in asked:
-                listed_signs(asked["signs_file"])
+                _listed_signs(asked["signs_file"])
             if "substitutes" in asked:
                 Substitutes.named(asked["substitutes"])
         except TranslationError as error:
@@ -311,7 +312,7 @@ class TranslatorNode(SelfStartingNode):
         if "queue_size" in asked and self._worker is not None:
             self._worker.size = asked["queue_size"]
         if "signs_file" in asked and self._inventory is not None:
-            self._inventory.list(listed_signs(asked["signs_file"]))
+            self._inventory.list(_listed_signs(asked["signs_file"]))
 
     def _load(self, asked: dict[str, Any]) -> Translator:
         """A translator with the parameters' values, and with those of `asked` that are about to be set."""
@@ -324,6 +325,11 @@ class TranslatorNode(SelfStartingNode):
             min_confidence=values["min_confidence"],
             substitutes=Substitutes.named(values["substitutes"]),
         )
+
+
+def _listed_signs(file: str) -> frozenset[str] | None:
+    """The glosses of a file or folder that the parameter `signs_file` names; None if it names none."""
+    return read_signs(Path(file)) if file else None
 
 
 def _to_messages(translation: Translation, item: _Text) -> list[SignSentence]:

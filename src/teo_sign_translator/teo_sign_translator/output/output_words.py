@@ -30,13 +30,9 @@ class Spelling:
 
     @classmethod
     @cache
-    def load(cls, code: str = DEFAULT_LANGUAGE) -> Spelling:
-        """That of a language by its code.
-
-        Raises:
-            LanguageError: "unknown_language" or "invalid_language".
-        """
-        return cls(load_language(code))
+    def load(cls) -> Spelling:
+        """That of the default language."""
+        return cls(load_language(DEFAULT_LANGUAGE))
 
     def letters(self, word: str) -> tuple[str, ...]:
         """The signs that spell a word, e.g. `"Guillermo"` gives G U I LL E R M O in LSE.
@@ -183,13 +179,13 @@ def lexical(
 
 
 def without_carried(
-    output_words: Sequence[OutputWord], spelling: Spelling | None = None
+    output_words: Sequence[OutputWord], spelling: Spelling
 ) -> tuple[list[OutputWord], tuple[str, ...]]:
     """Output words that are signed, and the typed words of those that are not, in the order of the text.
 
     Args:
         output_words: Of one sentence. If none of them is signed, their words are spelled.
-        spelling: Of the language; by default the default language's.
+        spelling: Of the language.
 
     Returns:
         One pause between two words, none at the ends, however many marks were typed; and what is dropped.

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from teo_sign_translator.data_files import invalid_line, read_rows
 from teo_sign_translator.output.output_words import OutputWord, Spelling, spelled
-from teo_sign_translator.output.substitutes import SIGN_NAME
+from teo_sign_translator.output.sign_choice import SIGN_NAME
 from teo_sign_translator.output.translation import Kind
 from teo_sign_translator.text.reading import Clause
 

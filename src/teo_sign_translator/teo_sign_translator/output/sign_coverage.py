@@ -14,7 +14,7 @@ from pathlib import Path
 
 from teo_sign_translator.data_files import invalid_line, read_lines
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.output.substitutes import SIGN_NAME
+from teo_sign_translator.output.sign_choice import SIGN_NAME
 from teo_sign_translator.output.translation import Kind, Origin, Sentence, Token, Translation
 
 #: How well founded a sign may be, the best first, as the entries of a table name it.
@@ -42,15 +42,6 @@ def read_signs(path: Path, least_standing: str = LEAST_STANDING) -> frozenset[st
             raise invalid_line(path, line_number, "one gloss", f"'{line.strip()}'")
         signs.add(gloss)
     return frozenset(signs)
-
-
-def listed_signs(file: str, least_standing: str = LEAST_STANDING) -> frozenset[str] | None:
-    """The glosses of a file or folder that a parameter names; None if it names none.
-
-    Raises:
-        TranslationError: "invalid_data", with file and line.
-    """
-    return read_signs(Path(file), least_standing) if file else None
 
 
 def _entries(folder: Path, least_standing: str) -> frozenset[str]:

@@ -13,7 +13,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from teo_sign_translator.data_files import data_file, invalid_line, read_rows
+from teo_sign_translator.data_files import invalid_line, read_rows
 from teo_sign_translator.morphology import Reading
 from teo_sign_translator.morphology.lexicon import nouns
 from teo_sign_translator.pipeline.completeness import PersonWords, PipelineWords
@@ -46,16 +46,12 @@ class Agreement:
         self._said = said
 
     @classmethod
-    def load(cls, folder: Path | None = None) -> Agreement:
-        """Read a language's `agreement.tsv`, which explains its columns, and its nouns that name people.
-
-        Args:
-            folder: The language's text folder; by default that of the default language.
+    def load(cls, folder: Path) -> Agreement:
+        """Read `agreement.tsv`, which explains its columns, and the nouns that name people of a text folder.
 
         Raises:
             TranslationError: "invalid_data", with file and line.
         """
-        folder = folder or data_file("")
         path = folder / "agreement.tsv"
         rules: dict[str, _Rule] = {}
         for number, (gloss, lemma, kind, places) in read_rows(path, columns=4):
@@ -85,11 +81,11 @@ class Agreement:
                 ends = next((word.form for word in words[place:] if word.form in _ENDS), "")
                 orders = place == start and ends != "?" and not _says_verb(words[:start])
                 clause = _Clause(
-                    words[start:stop],
-                    place - start,
-                    verbs,
-                    self._people,
-                    self._said,
+                    words=words[start:stop],
+                    verb=place - start,
+                    readings=[reading for reading in verbs if reading.exact] or verbs,
+                    people=self._people,
+                    said=self._said,
                     asks=ends == "?",
                     opens=orders,
                 )
@@ -116,45 +112,33 @@ def _says_verb(words: Sequence[SourceWord]) -> bool:
     return any(word.readings[0].tag.startswith(_FINITE) for word in words[start:])
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
 class _Clause:
-    """The words around a verb that agrees."""
+    """The words around a verb that agrees.
 
-    def __init__(
-        self,
-        words: Sequence[SourceWord],
-        verb: int,
-        readings: Sequence[Reading],
-        people: frozenset[str],
-        said: PersonWords,
-        *,
-        asks: bool,
-        opens: bool,
-    ) -> None:
-        """Take a clause.
+    Attributes:
+        words: Of the clause, without marks.
+        verb: Place of the verb.
+        readings: Those of the verb's word that are this verb; where it may be typed right, only those.
+        people: Nouns that name people.
+        said: How persons are said.
+        asks: Whether its sentence is a question.
+        opens: Whether the verb opens a sentence that is no question.
+    """
 
-        Args:
-            words: Of the clause, without marks.
-            verb: Place of the verb.
-            readings: Those of the verb's word that are this verb.
-            people: Nouns that name people.
-            said: How persons are said.
-            asks: Whether its sentence is a question.
-            opens: Whether the verb opens a sentence that is no question.
-        """
-        self._people = people
-        self._said = said
-        self._asks = asks
-        self._opens = opens
-        self._words = words
-        self._verb = verb
-        exact = [reading for reading in readings if reading.exact]
-        self._readings = exact or list(readings)
+    words: Sequence[SourceWord]
+    verb: int
+    readings: Sequence[Reading]
+    people: frozenset[str]
+    said: PersonWords
+    asks: bool
+    opens: bool
 
     def place(self, places: frozenset[str]) -> str:
         """The one place of the body that the clause names; empty if it names none or several."""
         named = {
             reading.lemma.upper()
-            for word in self._words
+            for word in self.words
             for reading in word.readings
             if reading.tag.startswith("N:") and reading.lemma.upper() in places
         }
@@ -169,25 +153,25 @@ class _Clause:
 
     def _finite(self) -> int | None:
         """Place of the verb that has a person: this one, or the last before it that governs it."""
-        if any(reading.tag.startswith(_FINITE) for reading in self._readings):
-            return self._verb
-        before = range(self._verb - 1, -1, -1)
+        if any(reading.tag.startswith(_FINITE) for reading in self.readings):
+            return self.verb
+        before = range(self.verb - 1, -1, -1)
         return next((place for place in before if self._finite_readings(place)), None)
 
     def _finite_readings(self, place: int) -> list[Reading]:
-        if place == self._verb:
-            return [reading for reading in self._readings if reading.tag.startswith(_FINITE)]
-        likeliest = self._words[place].readings[0]
+        if place == self.verb:
+            return [reading for reading in self.readings if reading.tag.startswith(_FINITE)]
+        likeliest = self.words[place].readings[0]
         return [likeliest] if likeliest.tag.startswith(_FINITE) else []
 
     def _clitics(self, finite: int | None) -> tuple[list[str], bool]:
         """Pronouns of the verb, and whether they stand before it."""
-        at_end = [clitic for reading in self._readings for clitic in reading.clitics][:2]
+        at_end = [clitic for reading in self.readings for clitic in reading.clitics][:2]
         if at_end or finite is None:
             return at_end, False
         before: list[str] = []
         for place in range(finite - 1, -1, -1):
-            word = self._words[place]
+            word = self.words[place]
             if not any(reading.tag.startswith(("PRON:obj", "PRON:refl")) for reading in word.readings):
                 break
             before.insert(0, word.form)
@@ -195,29 +179,29 @@ class _Clause:
 
     def _object(self, finite: int | None, kind: str) -> str:
         clitics, _ = self._clitics(finite)
-        if self._experiences(finite) and not any(reading.clitics for reading in self._readings):
+        if self._experiences(finite) and not any(reading.clitics for reading in self.readings):
             clitics = []
         for clitic in clitics:
-            if clitic in self._said.objects:
-                return self._said.objects[clitic]
-        if self._said.reflexive in clitics:  # se lo doy: to him
-            return "3" if any(clitic in self._said.things for clitic in clitics) else ""
-        if kind == _PERSON and any(clitic in self._said.things for clitic in clitics):
+            if clitic in self.said.objects:
+                return self.said.objects[clitic]
+        if self.said.reflexive in clitics:  # se lo doy: to him
+            return "3" if any(clitic in self.said.things for clitic in clitics) else ""
+        if kind == _PERSON and any(clitic in self.said.things for clitic in clitics):
             return "3"
         return self._prepositional_object()
 
     def _prepositional_object(self) -> str:
         """Person behind "a": `ayudo a Ana`, `se lo doy a él`."""
-        for place in range(self._verb + 1, len(self._words)):
-            word = self._words[place]
-            if not word.readings[0].tag.startswith("PREP") or word.form not in self._said.towards:
+        for place in range(self.verb + 1, len(self.words)):
+            word = self.words[place]
+            if not word.readings[0].tag.startswith("PREP") or word.form not in self.said.towards:
                 continue
-            for word in self._words[place + 1 : place + 3]:
+            for word in self.words[place + 1 : place + 3]:
                 tag = word.readings[0].tag
                 if tag.startswith("PRON:prep:"):
                     return tag.removeprefix("PRON:prep:")[0]
-                if word.readings[0].lemma in self._said.subjects:
-                    return self._said.subjects[word.readings[0].lemma]
+                if word.readings[0].lemma in self.said.subjects:
+                    return self.said.subjects[word.readings[0].lemma]
                 if tag.startswith(("NAME", "N:", "PRON:3")) and tag != "NAME:place":
                     return "3"
                 if not tag.startswith("DET"):
@@ -227,35 +211,33 @@ class _Clause:
     def _experiences(self, finite: int | None) -> bool:
         return (
             finite is not None
-            and finite != self._verb
-            and any(
-                reading.lemma in self._said.experiencer_verbs for reading in self._finite_readings(finite)
-            )
+            and finite != self.verb
+            and any(reading.lemma in self.said.experiencer_verbs for reading in self._finite_readings(finite))
         )
 
     def _subject(self, finite: int | None, receiver: str) -> str:
         if finite is None:
             return ""
         if self._experiences(finite):
-            before = self._words[finite - 1].form if finite else ""
-            return self._said.objects.get(before, "")
+            before = self.words[finite - 1].form if finite else ""
+            return self.said.objects.get(before, "")
         readings = self._finite_readings(finite)
         if self._orders(readings):
             return "2"
         if self._clitics(finite)[1]:  # a pronoun before it is never an imperative's
             readings = [reading for reading in readings if not reading.tag.startswith("V:imp")]
         persons = [self._person(reading) for reading in readings]
-        said = {reading.lemma: reading for word in self._words for reading in word.readings[:1]}
+        said = {reading.lemma: reading for word in self.words for reading in word.readings[:1]}
         explicit = {
-            self._said.subjects[lemma]
+            self.said.subjects[lemma]
             for lemma in said
-            if lemma in self._said.subjects and said[lemma].tag.startswith("PRON")
+            if lemma in self.said.subjects and said[lemma].tag.startswith("PRON")
         }
         possible = [person for person in dict.fromkeys(persons) if person != receiver]
         for person in possible:
             if person in explicit:
                 return person
-        if "3" in possible and "2" in explicit and any(lemma in said for lemma in self._said.polite):
+        if "3" in possible and "2" in explicit and any(lemma in said for lemma in self.said.polite):
             return "2"
         if possible[:1] == ["3"] and receiver == "1" and self._asks_politely():
             return "2"
@@ -272,27 +254,27 @@ class _Clause:
         It opens the sentence, and no third person is named who could do it: no person that does not stand
         behind "a", and no "su".
         """
-        if not self._opens or not any(reading.tag == "V:ind:pres:3s" for reading in readings):
+        if not self.opens or not any(reading.tag == "V:ind:pres:3s" for reading in readings):
             return False
-        if any(reading.lemma in self._said.own_imperatives for reading in readings):
+        if any(reading.lemma in self.said.own_imperatives for reading in readings):
             return False
         towards = False
-        for word in self._words[self._verb + 1 :]:
+        for word in self.words[self.verb + 1 :]:
             reading = word.readings[0]
-            if reading.lemma == self._said.own_possessive or (
+            if reading.lemma == self.said.own_possessive or (
                 reading.tag.startswith("PRON:3") and not towards
             ):
                 return False
-            if _names_person(reading, self._people):
+            if _names_person(reading, self.people):
                 if not towards:
                     return False
                 towards = False
-            towards = towards or word.form in self._said.towards
+            towards = towards or word.form in self.said.towards
         return True
 
     def _asks_politely(self) -> bool:
         """Whether `¿Me ayuda?` is asked of the addressee: a question that names no third person."""
-        tags = [word.readings[0].tag for word in self._words]
-        return self._asks and not any(
+        tags = [word.readings[0].tag for word in self.words]
+        return self.asks and not any(
             tag.startswith(("NAME", "PRON:3")) and tag != "NAME:place" for tag in tags
         )

@@ -20,7 +20,7 @@ from functools import cache
 from pathlib import Path
 
 from teo_common.text_folding import fold
-from teo_sign_translator.data_files import data_file, read_listed, read_rows, read_sections
+from teo_sign_translator.data_files import read_listed, read_rows, read_sections
 from teo_sign_translator.morphology import TAGS, Reading
 from teo_sign_translator.pointer import Hypothesis, OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
@@ -90,22 +90,19 @@ class PipelineWords:
 
     @classmethod
     @cache
-    def load(cls, folder: Path | None = None) -> PipelineWords:
+    def load(cls, folder: Path) -> PipelineWords:
         """Read the file of a language's text folder, once.
-
-        Args:
-            folder: By default that of the default language.
 
         Raises:
             TranslationError: "invalid_data" naming file and field.
         """
         sections = {"completeness": CompletenessWords, "persons": PersonWords}
-        return cls(**read_sections((folder or data_file("")) / _FILE, sections))
+        return cls(**read_sections(folder / _FILE, sections))
 
 
 #: Of a gloss that was put back: its word is right, its place a guess. Below the translator's threshold, so
 #: that its sentence is called uncertain.
-PUT_BACK_CONFIDENCE = 0.2
+_PUT_BACK_CONFIDENCE = 0.2
 
 #: Of a courtesy: it stands first or last, as typed, and changes nothing else in the sentence.
 _COURTESY_CONFIDENCE = 0.9
@@ -206,16 +203,12 @@ class Completeness:
     tags: frozenset[str]
 
     @classmethod
-    def load(cls, folder: Path | None = None) -> Completeness:
-        """With a language's lists of words, `pipeline.yaml` and `reading.yaml`.
-
-        Args:
-            folder: The language's text folder; by default that of the default language.
+    def load(cls, folder: Path) -> Completeness:
+        """Read the lists of words, `pipeline.yaml` and `reading.yaml` of a language's text folder.
 
         Raises:
             TranslationError: "invalid_data", with file and line.
         """
-        folder = folder or data_file("")
         return cls(
             FunctionWords.load(folder / "function_words.tsv"),
             read_gloss_words(folder / "gloss_words.tsv"),
@@ -268,7 +261,7 @@ class Completeness:
             index = len(glosses)
             if not reading.tag.startswith(_LAST):
                 index = self._beside(place, words, glosses)
-            gloss = OutputGloss(copied_gloss(reading), (place,), PUT_BACK_CONFIDENCE, copied=True)
+            gloss = OutputGloss(copied_gloss(reading), (place,), _PUT_BACK_CONFIDENCE, copied=True)
             glosses.insert(index, gloss)
             put_back.insert(index, True)
         courtesy = self._courtesy(words)

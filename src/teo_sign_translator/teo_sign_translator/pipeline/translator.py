@@ -27,10 +27,11 @@ from teo_sign_translator.output.sign_choice import (
     INCORPORATED_NUMBERS,
     Incorporated,
     SignChooser,
+    SubstituteLists,
+    Substitutes,
     read_incorporated,
     with_numbers_incorporated,
 )
-from teo_sign_translator.output.substitutes import SubstituteLists, Substitutes
 from teo_sign_translator.output.translation import Sentence, Translation
 from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.back_end import BackEnd, TranslatedSentence, load_other_back_end

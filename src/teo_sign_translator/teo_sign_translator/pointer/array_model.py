@@ -63,7 +63,9 @@ class _GruLayer(Layer):
         """See `Layer`; the state is h."""
         size = self._hidden
         recurrent = state @ self._recurrent + self._recurrent_bias
-        gates = sigmoid(projected[:, : 2 * size] + recurrent[:, : 2 * size])
+        # sigmoid(x) = (tanh(x / 2) + 1) / 2, without overflow
+        both: Array = projected[:, : 2 * size] + recurrent[:, : 2 * size]
+        gates: Array = 0.5 * np.tanh(0.5 * both) + 0.5
         reset, update = gates[:, :size], gates[:, size:]
         new = np.tanh(projected[:, 2 * size :] + reset * recurrent[:, 2 * size :])
         result: Array = new + update * (state - new)
@@ -96,17 +98,6 @@ _LAYERS: Mapping[Cell, type[Layer]] = {
     "gru": _GruLayer,
     "lstm": LstmLayer,
 }
-
-
-def _make_layer(cell: Cell, weights: Mapping[str, Array], prefix: str, suffix: str) -> Layer:
-    """The layer of a kind of cell."""
-    return _LAYERS[cell](weights, prefix, suffix)
-
-
-def sigmoid(values: Array) -> Array:
-    """1 / (1 + exp(-x)), without overflow."""
-    result: Array = 0.5 * np.tanh(0.5 * values) + 0.5
-    return result
 
 
 def _run_layer(layer: Layer, inputs: Array, state_size: int, hidden: int, *, backwards: bool) -> Array:
@@ -197,9 +188,10 @@ class ArrayModel:
         own = full["tag.weight"]
         self._tags = {key: own[row] + self._by_parts(key) for row, key in enumerate(vocabulary.tags)}
         self._state_size = config.hidden * (1 + (config.cell == "lstm"))
+        layer_of = _LAYERS[config.cell]
         directions = ("", "_reverse")[: 1 + config.bidirectional]
         self._encoder = [
-            [_make_layer(config.cell, full, "encoder", f"l{layer}{each}") for each in directions]
+            [layer_of(full, "encoder", f"l{layer}{each}") for each in directions]
             for layer in range(config.layers)
         ]
         self._output = np.ascontiguousarray(full["output.weight"].T)
@@ -207,9 +199,7 @@ class ArrayModel:
         self._features: dict[SourceWord, tuple[WordFeatures, Array, Array]] = {}
         if config.layout == "equal_length":
             return
-        self._decoder = [
-            _make_layer(config.cell, full, "decoder", f"l{layer}") for layer in range(config.layers)
-        ]
+        self._decoder = [layer_of(full, "decoder", f"l{layer}") for layer in range(config.layers)]
         self._start, self._start_bias = full["start.weight"].T, full["start.bias"]
         #: First gates of the decoder after each closed gloss.
         self._said = self._decoder[0].project(full["said.weight"])

@@ -17,9 +17,8 @@ from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.morphology.conjugation import Conjugations
 from teo_sign_translator.output.senses import read_senses
-from teo_sign_translator.output.sign_choice import read_incorporated
+from teo_sign_translator.output.sign_choice import read_incorporated, read_paraphrases, read_synonyms
 from teo_sign_translator.output.sign_coverage import read_signs
-from teo_sign_translator.output.substitutes import read_paraphrases, read_synonyms
 from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.completeness import FunctionWords, PipelineWords, read_gloss_words
 from teo_sign_translator.text.rules import Expressions, TextRules

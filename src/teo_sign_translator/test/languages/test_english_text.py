@@ -50,16 +50,11 @@ def test_contractions_are_two_words(typed: str, words: str) -> None:
 @pytest.mark.parametrize(
     ("typed", "value"),
     [
-        ("zero", "0"),
-        ("twelve", "12"),
         ("twenty-one", "21"),
-        ("twenty one", "21"),
-        ("ninety-nine", "99"),
         ("a hundred", "100"),
         ("one hundred and five", "105"),
         ("two hundred fifty", "250"),
         ("a thousand", "1000"),
-        ("three thousand two hundred", "3200"),
         ("1,000", "1000"),
         ("3.5", "3,5"),
         ("15:30", "15:30"),

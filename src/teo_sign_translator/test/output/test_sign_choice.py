@@ -9,20 +9,19 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from loaded import morphology
-from refusals import refused
+from loaded import TEXT, morphology
 
-from teo_sign_translator.data_files import data_file
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.output.output_words import OutputWord, Spelling, lexical, number
 from teo_sign_translator.output.sign_choice import (
     INCORPORATED_NUMBERS,
     SignChooser,
+    SubstituteLists,
+    Substitutes,
     read_incorporated,
     with_numbers_incorporated,
 )
 from teo_sign_translator.output.sign_coverage import read_signs
-from teo_sign_translator.output.substitutes import SubstituteLists, Substitutes
 from teo_sign_translator.output.translation import Kind, Origin
 
 
@@ -96,12 +95,6 @@ def test_each_step_can_be_switched_off(allowed: Substitutes) -> None:
     assert origins == {*steps[: int(allowed)]}
 
 
-def test_unknown_substitutes_are_refused_with_those_that_there_are() -> None:
-    assert Substitutes.named("paraphrase") is Substitutes.PARAPHRASE
-    with refused("unknown_substitutes", "none, synonym, paraphrase"):
-        Substitutes.named("all")
-
-
 def test_no_synonym_leads_back() -> None:
     assert all(gloss not in others for gloss, others in SubstituteLists.load().synonyms.items())
 
@@ -114,7 +107,7 @@ def _with_numbers(text: str, signs: frozenset[str] | None = UNITS) -> list[Outpu
         number(word, (word,), 0.9)[0] if word.isdigit() else lexical(word, (word.lower(),), 0.8)
         for word in text.split()
     ]
-    return with_numbers_incorporated(words, signs, read_incorporated(data_file(INCORPORATED_NUMBERS)))
+    return with_numbers_incorporated(words, signs, read_incorporated(TEXT / INCORPORATED_NUMBERS))
 
 
 @pytest.mark.parametrize(

@@ -4,28 +4,22 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import pytest
-from loaded import morphology
+from loaded import TEXT, read
 
 from teo_sign_translator.pipeline.agreement import Agreement
-from teo_sign_translator.text.source_words import source_words
 
-
-@cache
-def agreement() -> Agreement:
-    return Agreement.load()
+AGREEMENT = Agreement.load(TEXT)
 
 
 def inflection(sentence: str, gloss: str) -> str:
-    words = source_words(sentence, morphology())
+    words = read(sentence)
     (verb,) = (
         place
         for place, word in enumerate(words)
         if any(reading.lemma.upper() == gloss and reading.tag.startswith("V") for reading in word.readings)
     )
-    return agreement().inflection(gloss, [verb], words)
+    return AGREEMENT.inflection(gloss, [verb], words)
 
 
 @pytest.mark.parametrize(
@@ -87,7 +81,7 @@ def test_pain_is_signed_where_it_is_if_one_place_is_named(sentence: str, expecte
 
 
 def test_other_signs_have_no_inflection() -> None:
-    words = source_words("Te quiero.", morphology())
-    assert agreement().inflection("QUERER", [1], words) == ""
-    assert agreement().inflection("AYUDAR", [], words) == ""
-    assert agreement().inflection("AYUDAR", [0, 1], words) == ""
+    words = read("Te quiero.")
+    assert AGREEMENT.inflection("QUERER", [1], words) == ""
+    assert AGREEMENT.inflection("AYUDAR", [], words) == ""
+    assert AGREEMENT.inflection("AYUDAR", [0, 1], words) == ""

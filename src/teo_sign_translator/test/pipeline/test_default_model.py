@@ -4,12 +4,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import pytest
-from loaded import translator
+from loaded import TEXT, morphology, read, translator
+from small_language import glosses_of
 from ways_of_typing import WAYS_OF_TYPING
 
-from teo_sign_training.corpus.paper_pairs import paper_pairs
+from teo_sign_training.corpus import Pair
+from teo_sign_training.corpus.generator import Generator
+from teo_sign_training.corpus.paper_pairs import memorised_pairs, paper_pairs
+from teo_sign_training.fitting.fitting import ZOO
+from teo_sign_translator.model_files import available_models, models_directory, read_card
 from teo_sign_translator.morphology import gloss_name
+from teo_sign_translator.pointer import load_sentence_model
+from teo_sign_translator.pointer.config import POINTER, NetworkConfig
 
 
 @pytest.mark.parametrize("way", WAYS_OF_TYPING)
@@ -40,3 +49,35 @@ def test_words_that_no_list_holds_are_carried_over() -> None:
 def test_what_makes_no_sentence_is_called_uncertain() -> None:
     (sentence,) = translator().translate("blim porque cuyo tras ñofu grabitón").sentences
     assert sentence.uncertain
+
+
+def _right(pairs: Sequence[Pair]) -> int:
+    """How many pairs the model alone translates exactly."""
+    said = load_sentence_model(POINTER).translate_all([read(pair.text) for pair in pairs])
+    return sum(glosses_of(best) == pair.glosses for pair, (best, *_) in zip(pairs, said, strict=True))
+
+
+def test_the_default_model_is_the_pointer_of_the_zoo() -> None:
+    assert translator().name == POINTER
+    assert POINTER in available_models()
+    assert NetworkConfig(**read_card(POINTER)["network"]) == ZOO[POINTER]
+
+
+def test_the_projects_pairs_come_out_exactly() -> None:
+    pairs = memorised_pairs(read)
+    assert _right(pairs) == len(pairs)
+
+
+@pytest.mark.slow
+def test_the_scores_on_the_card_hold_for_sentences_made_anew() -> None:
+    scores = read_card(POINTER)["result"]["scores"]
+    pairs = Generator.load(TEXT / "grammar", morphology()).pairs(5000, seed=7)
+    made = [pair for pair in pairs if pair.split in scores]
+    claimed = sum(scores[pair.split]["exact"] for pair in made)
+    # Three standard deviations of a share of 0.94.
+    assert len(made) == 350
+    assert _right(made) > claimed - 13
+
+
+def test_all_models_together_are_under_twenty_megabytes() -> None:
+    assert sum(path.stat().st_size for path in models_directory().iterdir()) < 20e6

@@ -54,7 +54,7 @@ def test_nothing_but_a_pronoun_goes() -> None:
         "Vendemos la casa.", "Bebo agua.", "Estoy cansada.", "Llueve.", "Estudias mucho.", "Comes pan.",
     ]  # fmt: skip
     shorter = 0
-    for first, second in pairwise([*alone, *reversed(alone), *alone[::2], *alone[::3]]):
+    for first, second in pairwise([*alone, *reversed(alone)]):
         together = glosses(f"{first} {second}")
         left, right = glosses(first), glosses(second)
         assert together[0] == left[0]

@@ -4,90 +4,81 @@
 
 from __future__ import annotations
 
-import dataclasses
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
 import pytest
 import safetensors.numpy
+from made_models import VOCABULARY, made_weights, small_config
+from numpy.typing import NDArray
 from refusals import refused
-from small_language import fit_small, glosses_of, read, sentence_pairs, small_config, small_model
+from small_language import glosses_of, read
 
-from teo_sign_training.fitting.fitting import Fit
 from teo_sign_translator.model_files import available_models
-from teo_sign_translator.pointer import load_sentence_model
-from teo_sign_translator.pointer.config import POINTER
+from teo_sign_translator.pointer import SentenceModel, load_sentence_model
+from teo_sign_translator.pointer.array_model import ArrayModel
 from teo_sign_translator.pointer.decoding import save_sentence_model
 from teo_sign_translator.pointer.ensemble import member_weights
 from teo_sign_translator.pointer.vocabulary import START_INDEX
+from teo_sign_translator.text.source_word import SourceWord
+
+TEXTS = ("Ana no come el pan .", "como los vasos .", "Zoraida lee")
 
 
-@pytest.fixture(scope="module")
-def trained() -> Fit:
-    return fit_small(POINTER, sentence_pairs(50), epochs=2)
-
-
-def _save(trained: Fit, directory: Path) -> None:
+def _save(directory: Path, name: str = "small", *, seeds: Sequence[int] = (1,), members: int = 1) -> None:
+    config = small_config()
+    weights = [made_weights(config, seed) for seed in seeds]
     save_sentence_model(
-        "small",
+        name,
         directory,
-        config=small_config(POINTER),
-        vocabulary=trained.vocabulary,
-        weights=trained.weights,
+        config=small_config(members=members),
+        vocabulary=VOCABULARY,
+        weights=weights[0] if members == 1 else member_weights(weights),
         card={},
     )
 
 
-def test_a_saved_model_says_the_same_after_loading(trained: Fit, tmp_path: Path) -> None:
-    _save(trained, tmp_path)
-    model = small_model(POINTER, trained)
+def _first_step(directory: Path, name: str, words: Sequence[SourceWord]) -> NDArray[np.float32]:
+    """Probabilities of the first gloss."""
+    arrays = load_sentence_model(name, directory).arrays
+    memory = arrays.encode([words])
+    return arrays.step(memory, np.array([START_INDEX]), memory.first).probability
+
+
+def test_a_saved_model_says_the_same_after_loading(tmp_path: Path) -> None:
+    _save(tmp_path)
     assert available_models(tmp_path) == ("small",)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["small.json", "small.safetensors"]
+    config = small_config()
+    made = SentenceModel("small", ArrayModel(config, VOCABULARY, made_weights(config)))
     loaded = load_sentence_model("small", tmp_path)
-    for pair in sentence_pairs(10):
-        (expected,), (got,) = model.translate(read(pair.text)), loaded.translate(read(pair.text))
+    for text in TEXTS:
+        (expected,), (got,) = made.translate(read(text)), loaded.translate(read(text))
         assert glosses_of(expected) == glosses_of(got)
         assert expected.log_probability == pytest.approx(got.log_probability, abs=0.02)  # half precision
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["small.json", "small.safetensors"]
 
 
-def test_two_networks_in_one_file_say_the_mean_of_what_each_says(trained: Fit, tmp_path: Path) -> None:
-    other = fit_small(POINTER, sentence_pairs(50), epochs=1, seed=7)
-    assert other.vocabulary == trained.vocabulary
-    save_sentence_model(
-        "both",
-        tmp_path,
-        config=dataclasses.replace(small_config(POINTER), members=2),
-        vocabulary=trained.vocabulary,
-        weights=member_weights([trained.weights, other.weights]),
-        card={},
-    )
-    loaded = load_sentence_model("both", tmp_path)
-    alone = [small_model(POINTER, each) for each in (trained, other)]
-    for pair in sentence_pairs(10):
-        words = read(pair.text)
-        steps = []
-        for model in (*alone, loaded):
-            memory = model.arrays.encode([words])
-            steps.append(model.arrays.step(memory, np.array([START_INDEX]), memory.first).probability)
-        np.testing.assert_allclose(steps[2], (steps[0] + steps[1]) / 2, atol=2e-3)  # half precision
-        assert loaded.translate(words, beam=3)[0].log_probability <= 0.0
+def test_two_networks_in_one_file_say_the_mean_of_what_each_says(tmp_path: Path) -> None:
+    _save(tmp_path, "one", seeds=[1])
+    _save(tmp_path, "other", seeds=[2])
+    _save(tmp_path, "both", seeds=[1, 2], members=2)
+    for text in TEXTS:
+        one, other, both = (_first_step(tmp_path, name, read(text)) for name in ("one", "other", "both"))
+        np.testing.assert_allclose(both, (one + other) / 2, atol=2e-3)  # half precision
+    assert load_sentence_model("both", tmp_path).translate(read(TEXTS[0]), beam=3)[0].log_probability <= 0.0
 
 
-def test_a_file_that_lacks_a_network_is_refused(trained: Fit, tmp_path: Path) -> None:
-    config = dataclasses.replace(small_config(POINTER), members=2)
-    weights = member_weights([trained.weights])
-    save_sentence_model(
-        "half", tmp_path, config=config, vocabulary=trained.vocabulary, weights=weights, card={}
-    )
+def test_a_file_that_lacks_a_network_is_refused(tmp_path: Path) -> None:
+    _save(tmp_path, seeds=[1], members=2)
     with refused("invalid_model", "expected finite weights"):
-        load_sentence_model("half", tmp_path)
+        load_sentence_model("small", tmp_path)
 
 
 @pytest.mark.parametrize("name", ["large", "../small", ""])
-def test_an_unknown_model_is_refused_with_those_available(trained: Fit, tmp_path: Path, name: str) -> None:
-    _save(trained, tmp_path)
+def test_an_unknown_model_is_refused_with_those_available(tmp_path: Path, name: str) -> None:
+    _save(tmp_path)
     with refused("unknown_model", "small"):
         load_sentence_model(name, tmp_path)
 
@@ -133,8 +124,8 @@ def _not_a_number(directory: Path) -> None:
         _card(lexis={}),
     ],
 )
-def test_a_damaged_model_is_refused(trained: Fit, tmp_path: Path, damage: Callable[[Path], None]) -> None:
-    _save(trained, tmp_path)
+def test_a_damaged_model_is_refused(tmp_path: Path, damage: Callable[[Path], None]) -> None:
+    _save(tmp_path)
     damage(tmp_path)
     with refused("invalid_model"):
         load_sentence_model("small", tmp_path)

@@ -5,9 +5,9 @@
 from __future__ import annotations
 
 import pytest
-from loaded import morphology
+from loaded import TEXT, morphology
 
-from teo_sign_translator.data_files import data_file, read_listed
+from teo_sign_translator.data_files import read_listed
 from teo_sign_translator.text.cleaning import clean
 from teo_sign_translator.text.other_languages import NOISE, OtherLanguage, OtherLanguages
 from teo_sign_translator.text.reading import read
@@ -15,7 +15,7 @@ from teo_sign_translator.text.reading import read
 
 @pytest.fixture(scope="module")
 def others() -> OtherLanguages:
-    return OtherLanguages.load(data_file(""), "Spanish", morphology())
+    return OtherLanguages.load(TEXT, "Spanish", morphology())
 
 
 def _found(others: OtherLanguages, text: str) -> OtherLanguage | None:
@@ -58,6 +58,6 @@ def test_spanish_with_names_slips_and_loan_words_is_spanish(others: OtherLanguag
 
 
 def test_no_telling_word_is_a_spanish_one() -> None:
-    for language, words in read_listed(data_file("other_languages.tsv"), str.istitle, "a language").items():
+    for language, words in read_listed(TEXT / "other_languages.tsv", str.istitle, "a language").items():
         spanish = {word for word in words if any(each.exact for each in morphology().readings(word))}
         assert not spanish, language

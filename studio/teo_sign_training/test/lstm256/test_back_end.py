@@ -11,8 +11,7 @@ from teo_sign_training.lstm256.phrasebook import Phrasebook
 from teo_sign_training.lstm256.seq2seq import Prediction, TokenList
 from teo_sign_training.lstm256.word_by_word import GlossList
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.output.sign_choice import SignChooser
-from teo_sign_translator.output.substitutes import SubstituteLists
+from teo_sign_translator.output.sign_choice import SignChooser, SubstituteLists
 from teo_sign_translator.output.translation import Origin, Sentence
 from teo_sign_translator.pipeline.translator import Translator
 from teo_sign_translator.text.cleaning import MAX_TEXT_LENGTH

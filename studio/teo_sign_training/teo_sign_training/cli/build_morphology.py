@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Conjugations out of the mlconjug3 package (MIT); text/morphology/conjugations.tsv is the result.
+"""`build_morphology`: conjugations out of the mlconjug3 package (MIT), as text/morphology/conjugations.tsv.
 
     pip download --no-deps mlconjug3==3.7.22
     ros2 run teo_sign_translator build_morphology mlconjug3-3.7.22-py3-none-any.whl

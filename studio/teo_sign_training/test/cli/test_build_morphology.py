@@ -10,13 +10,8 @@ from typing import Any
 import pytest
 from refusals import refused
 
+from teo_sign_training.cli.build_morphology import Forms, correct, paradigm_lines, read_package
 from teo_sign_translator.morphology.conjugation import Conjugations
-from teo_sign_translator.morphology.conjugation_build import (
-    Forms,
-    correct,
-    paradigm_lines,
-    read_package,
-)
 from teo_sign_translator.morphology.readings import VERB_TAGS
 
 FOLDER = "mlconjug3/data/conjug_manager/"
