@@ -21,7 +21,7 @@ from teo_description.errors import DescriptionError
 from teo_description.humanoid import Humanoid
 
 # Positions written with six decimals may end this little outside a limit that they stand on [rad].
-LIMIT_TOLERANCE = 1e-5
+_LIMIT_TOLERANCE = 1e-5
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -100,7 +100,7 @@ def _check_limits(
         DescriptionError: ``outside_limits``.
     """
     limits = humanoid.limits(names)
-    outside = (positions < limits.lower - LIMIT_TOLERANCE) | (positions > limits.upper + LIMIT_TOLERANCE)
+    outside = (positions < limits.lower - _LIMIT_TOLERANCE) | (positions > limits.upper + _LIMIT_TOLERANCE)
     if outside.any():
         row, column = (int(index) for index in np.argwhere(outside)[0])
         lower, upper, value = limits.lower[column], limits.upper[column], positions[row, column]

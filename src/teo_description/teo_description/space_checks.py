@@ -162,8 +162,7 @@ def collision_checks(robot: Robot) -> Iterator[Finding]:
         ("ready", humanoid.ready, "postures.ready_deg"),
         ("arms apart", apart, "detour.apart_deg"),
     ):
-        positions = dict(zip(humanoid.commanded_joints, posture.tolist(), strict=True))
-        nearest = robot.clearance(robot.configuration(positions))
+        nearest = robot.clearance(robot.configurations(posture))
         yield Finding(
             nearest.distance > 0.0,
             f"nothing touches at {title}",

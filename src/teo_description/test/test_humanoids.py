@@ -13,7 +13,6 @@ import pytest
 from teo_description.errors import DescriptionError
 from teo_description.hand_geometry import HandGeometry, hand_table, thumb_gaps
 from teo_description.humanoid import Humanoid, load_humanoid
-from teo_description.kinematic_checks import hand_frames
 from teo_description.robot import Robot
 
 MIRROR = np.array([1.0, -1.0, 1.0])
@@ -41,7 +40,7 @@ def named(humanoid: Humanoid, row) -> dict[str, float]:
 
 
 def test_a_mirrored_posture_is_the_mirror_image_and_twice_the_same(robot, postures):
-    humanoid, frames = robot.humanoid, hand_frames(robot.humanoid)
+    humanoid, frames = robot.humanoid, robot.humanoid.file.hand.frames
     names = humanoid.commanded_joints
     once = [humanoid.mirrored_name(name) for name in names]
     assert tuple(humanoid.mirrored_name(name) for name in once) == names

@@ -49,8 +49,10 @@ class _Block(NamedTuple):
 
 
 @lru_cache(maxsize=64)  # making one takes longer than reading a point: a message has few
-def _point_type(layout: tuple[tuple[str, tuple[str, int]], ...]) -> np.dtype[np.void]:
-    return np.dtype(dict(layout))
+def _point_type(layout: tuple[tuple[str, str, int], ...]) -> np.dtype[np.void]:
+    """Of a point's members: name, format, and place in the point [bytes]."""
+    names, formats, offsets = zip(*layout, strict=True)
+    return np.dtype({"names": names, "formats": formats, "offsets": offsets})
 
 
 # A header's name is shown up to this length [bytes]: many times as long as any that is in use.
@@ -134,19 +136,19 @@ class CdrTrajectory:
     def _block(self, first: int) -> _Block:
         """The point at the present place, and all after it that are alike."""
         start = self._at
-        lengths, layout = [], {}  # layout: format of each number, or row of numbers, and its place in a point
+        lengths, layout = [], []
         for field in FIELDS:
             (length,) = self._take("I")
             lengths.append(length)
-            layout[f"length of {field}"] = (self._order + "u4", self._at - 4 - start)
+            layout.append((f"length of {field}", self._order + "u4", self._at - 4 - start))
             if length:
                 self._at += -self._at % 8
-                layout[field] = (f"({length},){self._order}f8", self._at - start)
+                layout.append((field, f"({length},){self._order}f8", self._at - start))
             self._skip(8 * length)
         self._take("iI")
         stride = self._at - start
-        layout |= {"sec": (self._order + "i4", stride - 8), "nanosec": (self._order + "u4", stride - 4)}
-        point, size = _point_type(tuple(layout.items())), 1
+        layout += [("sec", self._order + "i4", stride - 8), ("nanosec", self._order + "u4", stride - 4)]
+        point, size = _point_type(tuple(layout)), 1
         # Where a point's size is no multiple of eight, the next one's numbers lie at other places in it.
         most = 1 if stride % 8 else min(self.count - first, (len(self._data) - start) // stride)
         while size < most:  # by leaps, so that points that all differ cost no more than their number
