@@ -46,8 +46,8 @@ _MOST_LATE = 0.2
 class JointFollower:
     """Executes trajectories, of all joints or of some. Owns no clock: every call says what time it is [ns].
 
-    Whatever is being executed is one trajectory of all joints (`side_by_side`), so that all of them slow down
-    together when the pace changes.
+    What is being executed is one trajectory of all joints (`CommandedPath`): all of them slow down together
+    when the pace changes.
     """
 
     def __init__(
@@ -165,7 +165,8 @@ class JointFollower:
 
     def count_refusal(self, refusal: TrajectoryError) -> None:
         """Enter a refusal into the report."""
-        self._tally.refuse(refusal)
+        self._tally.refused[refusal.code] += 1
+        self._tally.refusals.append(refusal)
 
     def cancel(self, now: int, command: Command | None = None) -> float:
         """Slow down on the path until the joints stand still, and hold there.

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from teo_sim_driver.goal_monitor import GoalMonitor, ResultCode, Tolerances, result_code
+from teo_sim_driver.goal_monitor import GoalMonitor, ResultCode, result_code
 from teo_sim_driver.motion.trajectory import MotionState
 from teo_sim_driver.rules import Refusal, TrajectoryError
 
@@ -25,7 +25,7 @@ def state(neck, elbow, speed=0.0):
 
 
 def monitor(path=(), goal=(), goal_time=0.0):
-    return GoalMonitor(JOINTS, Tolerances.read(JOINTS, path, goal, goal_time))
+    return GoalMonitor(JOINTS, path, goal, goal_time)
 
 
 def test_without_tolerances_a_goal_succeeds_when_it_is_over():
