@@ -164,6 +164,7 @@ def test_robots_are_listed_and_shown(robots):
     assert code == 0
     assert "right_elbow_pitch_joint" in said
     assert "-130" in said  # its lower limit, -2.27 rad
+    assert "from [deg]" in said
 
 
 def test_the_links_of_a_bare_urdf_are_told_with_what_moves_them(robots):
