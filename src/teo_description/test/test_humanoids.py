@@ -66,22 +66,6 @@ def test_the_hands_frames_keep_their_distances_whatever_the_arm_does(robot, post
         np.testing.assert_allclose(np.linalg.norm(points - points[0], axis=1), apart, atol=1e-9)
 
 
-def test_palm_axes_run_along_the_fingers_to_the_little_finger_and_out_of_the_palm(robot):
-    hand = HandGeometry(robot)
-    limits = robot.humanoid.limits(hand.joints)
-    straight = np.concatenate([np.zeros(2), limits.lower[2:]])
-    fingers = hand.points(straight).fingers
-    along = fingers[:, 3] - fingers[:, 0]
-    assert (along[:, 0] > 0.8 * np.linalg.norm(along, axis=1)).all()
-    assert (np.diff(fingers[:, 0, 1]) > 0.01).all()
-    for finger in range(len(hand.fingers)):
-        bent = straight.copy()
-        bent[2 + finger] = 0.5 * (limits.lower[2 + finger] + limits.upper[2 + finger])
-        moved = hand.points(bent).fingers[finger, 3] - fingers[finger, 3]
-        assert moved[2] > 0.02, "towards the palm's side"
-        assert moved[0] < -0.01, "and back along the hand"
-
-
 def test_phalanges_are_as_long_at_every_flexion(robot, postures):
     hand = HandGeometry(robot)
     columns = robot.humanoid.columns(hand.joints)

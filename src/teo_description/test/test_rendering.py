@@ -134,32 +134,11 @@ def test_right_hand_is_on_the_left_of_the_picture_and_the_face_looks_at_the_view
     assert renderer.render(HOME, behind)[y, x].mean() > 90  # no face on the back of the head
 
 
-def test_hand_view_follows_the_hand(renderer):
-    for positions in ({}, RAISED):
-        seen = figure(renderer.render(positions, "hand"))
-        assert seen[220:260, 310:330].mean() > 0.5
-
-
 def test_a_renderer_can_be_used_again_and_gives_the_same_picture(renderer):
     first = renderer.render(RAISED)
     renderer.render({}, "hand")
     assert np.array_equal(renderer.render(RAISED), first)
     assert np.array_equal(render_pose(RAISED), first)
-
-
-@pytest.mark.parametrize(
-    ("positions", "camera", "code"),
-    [
-        ({"Elbow": 1.0}, "front", "unknown_joint"),
-        ({"AxialNeck": float("nan")}, "front", "not_finite"),
-        ({}, "side", "unknown_camera"),
-        ({}, replace(CAMERAS["hand"], follows="left_foot"), "unknown_frame"),
-    ],
-)
-def test_what_cannot_be_drawn_is_refused(renderer, positions, camera, code):
-    with pytest.raises(DescriptionError) as caught:
-        renderer.render(positions, camera)
-    assert caught.value.code == code
 
 
 @pytest.mark.parametrize(
