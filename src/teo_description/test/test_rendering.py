@@ -134,6 +134,12 @@ def test_right_hand_is_on_the_left_of_the_picture_and_the_face_looks_at_the_view
     assert renderer.render(HOME, behind)[y, x].mean() > 90  # no face on the back of the head
 
 
+def test_hand_view_follows_the_hand(renderer):
+    for positions in ({}, RAISED):
+        seen = figure(renderer.render(positions, "hand"))
+        assert seen[220:260, 310:330].mean() > 0.5
+
+
 def test_a_renderer_can_be_used_again_and_gives_the_same_picture(renderer):
     first = renderer.render(RAISED)
     renderer.render({}, "hand")
