@@ -152,7 +152,8 @@ def test_a_trajectory_over_the_speed_limit_is_refused_for_its_speed(
 @given(seed=st.integers(0, 2**32))
 def test_stopping_at_any_time_breaks_no_limit_and_ends_at_rest(new_follower, limits, home, seed):
     rng = np.random.default_rng(seed)
-    watch = Watch(new_follower(braking=Braking(rng.uniform(0.2, 20.0), rng.uniform(20.0, 500.0))), limits)
+    watch = Watch(new_follower(), limits)
+    watch.follower.braking = Braking(rng.uniform(0.2, 20.0), rng.uniform(20.0, 500.0))
     message, _ = random_message(rng, limits, home, 1.0)
     trajectory = send(watch.follower, message, watch.now)
     watch.run(rng, rng.uniform(0.0, trajectory.duration))
