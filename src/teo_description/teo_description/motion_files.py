@@ -88,13 +88,7 @@ def read_motion(path: Path, humanoid: Humanoid) -> Motion:
 def _check_limits(
     humanoid: Humanoid, names: tuple[str, ...], positions: NDArray[np.float64], where: str
 ) -> None:
-    """Refuse positions that a robot cannot reach.
-
-    Args:
-        humanoid: The robot.
-        names: Joints, m of them.
-        positions: [rad]. Shape (n, m).
-        where: What to call their source in the message.
+    """Refuse positions [rad], a row for each moment, that a robot cannot reach; `where` names their source.
 
     Raises:
         DescriptionError: ``outside_limits``.
