@@ -141,8 +141,10 @@ class Robot:
         Raises:
             DescriptionError: ``unknown_frame`` or ``wrong_shape``.
         """
-        placement: Matrix = self.placements(q, (frame,))[0]
-        return placement
+        index = self._frame_index(frame)
+        pin.forwardKinematics(self.model, self.data, self._checked(q))
+        matrix: Matrix = pin.updateFramePlacement(self.model, self.data, index).homogeneous
+        return matrix
 
     def placements(self, q: Matrix, frames: Sequence[str]) -> Matrix:
         """Poses of several frames in ``base_link`` from one pass over the tree. Shape (n, 4, 4)."""
