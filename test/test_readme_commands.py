@@ -52,7 +52,7 @@ NOT_RUN = {
     r"plant:=mujoco": "needs the package for physics, which is installed apart",
     r"openpose_json": "needs OpenPose beside it",
     r"--dask": "needs a cluster",
-    r"position_direct\(positions\)": "is a piece of a node",
+    r"position_direct\(teo, positions\)": "is a piece of a node",
     r"\b(BAG|GLOSS|CLIP|DIR|DIRECTORY)\b|\[|\.\.\. *$": "has a placeholder",
     r"reviews\.json|recordings/|HOLA_1|a\.png|(capture|-o) HOLA ": "wants the reader's own recordings",
 }

@@ -122,11 +122,6 @@ class ClearanceChecker:
         radii = np.array([item.geometry.aabb_radius for item in objects])
         self._reach = radii[self._firsts] + radii[self._seconds]
 
-    @property
-    def shaped_links(self) -> tuple[str, ...]:
-        """Links with collision shapes."""
-        return tuple(dict.fromkeys(self._links))
-
     def clearance(self, q: NDArray[np.float64]) -> Clearance:
         """Smallest distance at a configuration, shape (nq,)."""
         bounds = self._bounds(q)

@@ -46,7 +46,7 @@ def completed_urdf(text: str, robot: RobotFile, where: str) -> Urdf:
         raise DescriptionError("bad_robot", f"{where}: urdf: expected XML: {error}") from error
     links = {link.get("name", ""): link for link in root.findall("link")}
     joints = {joint.get("name", ""): joint for joint in root.findall("joint")}
-    tops = set(links) - {_end(joint, "child") for joint in joints.values()}
+    tops = set(links) - {end_link(joint, "child") for joint in joints.values()}
     if root.tag != "robot" or len(tops) != 1:
         got = f"{len(tops)} links that no joint holds" if root.tag == "robot" else f"<{root.tag}>"
         raise DescriptionError("bad_robot", f"{where}: urdf: expected a robot with one root link, got {got}")
@@ -65,7 +65,7 @@ def completed_urdf(text: str, robot: RobotFile, where: str) -> Urdf:
         _set_follow(joints[name], follow)
     for name, origin in robot.origins.items():
         _set_origin(joints[name], origin)
-    sides = OtherSide(root, robot.mirror)
+    sides = _OtherSide(root, robot.mirror)
     for name, frame in {**sides.frames(robot.frames), **robot.frames}.items():
         _add_frame(root, name, frame)
     for name, solids in {**sides.shapes(robot.collision.shapes), **robot.collision.shapes}.items():
@@ -114,7 +114,7 @@ def _check_names(
     _check((view.follows for view in robot.cameras.values() if view.follows), frames, f"{where}: cameras")
 
 
-def _end(joint: ET.Element, which: str) -> str:
+def end_link(joint: ET.Element, which: str) -> str:
     """Name of a joint's parent or child link; empty where the file does not say."""
     end = joint.find(which)
     return "" if end is None else end.get("link", "")
@@ -220,7 +220,7 @@ def mirrored_name(name: str, mirror: Sequence[tuple[str, str]]) -> str:
     return name
 
 
-class OtherSide:
+class _OtherSide:
     """The mirror image of what is fixed to a URDF's links, with all joints at zero."""
 
     def __init__(self, root: ET.Element, mirror: Sequence[tuple[str, str]]) -> None:
@@ -283,7 +283,7 @@ class OtherSide:
 
 def link_poses(root: ET.Element) -> Mapping[str, Array]:
     """Pose of every link that a joint holds, with all joints at zero, in the root's axes. Shapes (4, 4)."""
-    joints = {_end(joint, "child"): joint for joint in root.findall("joint")}
+    joints = {end_link(joint, "child"): joint for joint in root.findall("joint")}
     found: dict[str, Array] = {}
 
     def pose(link: str) -> Array:
@@ -293,7 +293,7 @@ def link_poses(root: ET.Element) -> Mapping[str, Array]:
             origin = joints[link].find("origin")
             at = {} if origin is None else origin.attrib
             xyz, rpy = (np.array(at.get(key, "0 0 0").split(), dtype=np.float64) for key in ("xyz", "rpy"))
-            found[link] = pose(_end(joints[link], "parent")) @ _transform(xyz, rpy)
+            found[link] = pose(end_link(joints[link], "parent")) @ _transform(xyz, rpy)
         return found[link]
 
     return {link: pose(link) for link in joints}
@@ -325,5 +325,5 @@ def joint_directions(urdf: ET.Element) -> Mapping[str, Array]:
         axis = joint.find("axis")
         if joint.attrib["type"] != "fixed":
             values = [1.0, 0.0, 0.0] if axis is None else [float(x) for x in axis.attrib["xyz"].split()]
-            found[joint.attrib["name"]] = poses[_end(joint, "child")][:3, :3] @ values
+            found[joint.attrib["name"]] = poses[end_link(joint, "child")][:3, :3] @ values
     return found

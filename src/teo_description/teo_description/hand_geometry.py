@@ -63,7 +63,6 @@ class HandGeometry:
         self.finger_radii, self.thumb_radii = np.array(hand.finger_radii), np.array(hand.thumb_radii)
         self.palm_box: PalmBox = hand.palm_box
         self.palm_middle, self.heel = np.array(hand.palm_middle), np.array(hand.heel)
-        self._frames = [hand.palm, *(frame for row in hand.fingers.values() for frame in row), *hand.thumb]
         at_home = self.points(np.array([humanoid.home[name] for name in self.joints])).fingers
         self.phalanges: Array = np.round(np.linalg.norm(np.diff(at_home, axis=1), axis=2), _DECIMALS)
         self.finger_length = float(np.median(self.phalanges.sum(axis=1)))
@@ -75,7 +74,7 @@ class HandGeometry:
             positions: Positions of `joints` [rad]. Shape (joints,).
         """
         q = self._robot.configuration(dict(zip(self.joints, positions.tolist(), strict=True)))
-        places = self._robot.placements(q, self._frames)
+        places = self._robot.placements(q, self._robot.humanoid.file.hand.frames)
         palm, others = places[0], places[1:, :3, 3]
         local = (others - palm[:3, 3]) @ palm[:3, :3]
         return HandPoints(local[:-3].reshape(-1, 4, 3), local[-3:])

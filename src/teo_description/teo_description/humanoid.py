@@ -368,48 +368,37 @@ class Humanoid:
                 limits[joint.attrib["name"]] = tuple(float(limit.attrib[key]) for key in keys)
         missing = [name for name in self.all_joints if name not in limits]
         if missing:
-            message = (
-                f"{self._path}: groups: expected joints with limits in the URDF; {', '.join(missing)}: none"
-            )
-            raise DescriptionError("bad_robot", message)
+            raise self._bad(f"groups: expected joints with limits in the URDF; {', '.join(missing)}: none")
         return limits
 
     def _check_groups(self) -> None:
         twice = sorted({name for name in self.all_joints if self.all_joints.count(name) > 1})
         if twice:
-            message = f"{self._path}: groups: expected every joint once, got {', '.join(twice)} twice"
-            raise DescriptionError("bad_robot", message)
-        for what, left, right in (
-            ("arm", self._arms["left"], self._arms["right"]),
-            ("hand", self._hands["left"], self._hands["right"]),
-        ):
+            raise self._bad(f"groups: expected every joint once, got {', '.join(twice)} twice")
+        for what, (left, right) in {"arm": self._arms.values(), "hand": self._hands.values()}.items():
             mirrored = tuple(self.mirrored_name(name) for name in left)
             if mirrored != right:
-                message = (
-                    f"{self._path}: groups.right_{what}: expected the mirror image of left_{what}, "
+                raise self._bad(
+                    f"groups.right_{what}: expected the mirror image of left_{what}, "
                     f"{', '.join(mirrored)}; got {', '.join(right)}"
                 )
-                raise DescriptionError("bad_robot", message)
         fingers = tuple(finger for finger, axis in zip(AXES, self._axes["right"], strict=True) if axis)[2:]
         if tuple(self.file.hand.fingers) != fingers:
-            message = (
-                f"{self._path}: hand.fingers: expected those of groups.right_hand, {', '.join(fingers)}; "
+            raise self._bad(
+                f"hand.fingers: expected those of groups.right_hand, {', '.join(fingers)}; "
                 f"got {', '.join(self.file.hand.fingers)}"
             )
-            raise DescriptionError("bad_robot", message)
         arm, signing, count = self.file.natural_arm, self.file.signing_arms, len(self._arms["right"])
         arms = {"natural_arm": [arm.lower_deg, arm.upper_deg]}
         if signing is not None:
-            arms["signing_arms"] = [
-                signing.easy_deg,
-                signing.spelling_deg,
-                signing.hanging_deg,
-                *signing.starts_deg,
-            ]
+            ways = signing.easy_deg, signing.spelling_deg, signing.hanging_deg
+            arms["signing_arms"] = [*ways, *signing.starts_deg]
         for field, postures in arms.items():
             if any(len(posture) != count for posture in postures):
-                message = f"{self._path}: {field}: expected an angle for each of the arm's {count} joints"
-                raise DescriptionError("bad_robot", message)
+                raise self._bad(f"{field}: expected an angle for each of the arm's {count} joints")
+
+    def _bad(self, message: str) -> DescriptionError:
+        return DescriptionError("bad_robot", f"{self._path}: {message}")
 
 
 def find_mesh(folder: Path, name: str) -> Path | None:

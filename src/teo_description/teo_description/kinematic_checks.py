@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import math
-import xml.etree.ElementTree as ET
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -13,10 +12,10 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from teo_common.arrays import Array
-from teo_description.completed_urdf import link_poses
+from teo_description.completed_urdf import end_link, link_poses
+from teo_description.hand_geometry import HandGeometry, HandPoints
 from teo_description.humanoid import Humanoid
 from teo_description.robot import Robot
-from teo_description.robot_schema import AXES
 
 
 class Finding(NamedTuple):
@@ -58,8 +57,8 @@ _FOLLOWER_TOLERANCE = 1e-3
 def frame_checks(robot: Robot) -> Iterator[Finding]:
     """``base_link`` has x forward, y left and z up (REP-103)."""
     humanoid, file = robot.humanoid, robot.humanoid.file
-    q = robot.configuration(_named(humanoid, humanoid.ready))
-    sides = robot.placements(q, [humanoid.mirrored_name(file.hand.palm), file.hand.palm])[:, :3, 3]
+    palms = [humanoid.mirrored_name(file.hand.palm), file.hand.palm]
+    sides = robot.placements(robot.configurations(humanoid.ready), palms)[:, :3, 3]
     yield Finding(
         bool(sides[0, 1] > 0.0 > sides[1, 1]),
         "y of base_link points to the left: the left palm is at y > 0, the right one at y < 0",
@@ -112,17 +111,18 @@ def symmetry_checks(robot: Robot) -> Iterator[Finding]:
 def _mirror_deviation(robot: Robot) -> tuple[float, str]:
     """Worst distance of a hand's frame from the mirror image of the other's [m], and its name."""
     humanoid = robot.humanoid
-    frames = hand_frames(humanoid)
+    frames, limits = humanoid.file.hand.frames, humanoid.limits()
     others = [humanoid.mirrored_name(frame) for frame in frames]
-    joints, limits = humanoid.commanded_joints, humanoid.limits()
-    signs = humanoid.mirror_signs(joints)
+    columns = humanoid.columns(map(humanoid.mirrored_name, limits.names))
+    signs = humanoid.mirror_signs(limits.names)
     dice = np.random.default_rng(1)
     worst = np.zeros(len(frames))
     for _ in range(_POSTURES):
         values = dice.uniform(limits.lower, limits.upper)
-        image = {humanoid.mirrored_name(n): x * s for n, x, s in zip(joints, values, signs, strict=True)}
-        here = robot.placements(robot.configuration(_named(humanoid, values)), frames)[:, :3, 3]
-        there = robot.placements(robot.configuration(image), others)[:, :3, 3]
+        image = np.empty_like(values)
+        image[columns] = values * signs
+        here = robot.placements(robot.configurations(values), frames)[:, :3, 3]
+        there = robot.placements(robot.configurations(image), others)[:, :3, 3]
         worst = np.maximum(worst, np.linalg.norm(here * [1.0, -1.0, 1.0] - there, axis=1))
     return float(worst.max()), frames[int(worst.argmax())]
 
@@ -152,7 +152,7 @@ def _mirrored_origins(humanoid: Humanoid) -> Iterator[str]:
     for joint in tree.findall("joint"):
         name = joint.attrib["name"]
         left = humanoid.mirrored_name(name)
-        parent, child = (_end(joint, end) for end in ("parent", "child"))
+        parent, child = (end_link(joint, end) for end in ("parent", "child"))
         if (
             joint.attrib["type"] == "fixed"
             or left == name
@@ -167,18 +167,6 @@ def _mirrored_origins(humanoid: Humanoid) -> Iterator[str]:
             turns = Rotation.from_matrix(wanted[:3, :3]).as_euler("xyz", degrees=True)
             xyz = ", ".join(f"{x:.5f}" for x in wanted[:3, 3])
             yield f"{left}: {{xyz: [{xyz}], rpy_deg: [{', '.join(f'{x:.3f}' for x in turns)}]}}"
-
-
-def _end(joint: ET.Element, end: str) -> str:
-    element = joint.find(end)
-    assert element is not None, "a URDF's joint has both ends"
-    return element.attrib["link"]
-
-
-def hand_frames(humanoid: Humanoid) -> tuple[str, ...]:
-    """Palm, fingers' and thumb's frames of the right hand."""
-    hand = humanoid.file.hand
-    return hand.palm, *(frame for row in hand.fingers.values() for frame in row), *hand.thumb
 
 
 def limit_checks(robot: Robot) -> Iterator[Finding]:
@@ -233,62 +221,46 @@ def _followers_beyond(humanoid: Humanoid) -> Iterator[str]:
 
 def hand_checks(robot: Robot) -> Iterator[Finding]:
     """The palm's axes, and that every axis of a hand moves what its name says."""
-    humanoid, hand = robot.humanoid, robot.humanoid.file.hand
-    axes = humanoid.hand_axes("right")
-    names = humanoid.hand("right")
-    known = humanoid.limits(names)
-    limits = dict(zip(names, zip(known.lower.tolist(), known.upper.tolist(), strict=True), strict=True))
-    straight = {name: limits[name][0] for name in names}
-    points = _in_palm(robot, straight)
-    rows: list[str] = list(hand.fingers)
-    along = points[:-3].reshape(-1, 4, 3)
-    directions = along[:, 3] - along[:, 0]
+    hand = HandGeometry(robot)
+    low, high = hand.limits.lower, hand.limits.upper
+    straight = hand.points(low)
+
+    def turned(axis: str, share: float) -> HandPoints:
+        """With one axis at this share of its range [1], and the others at their lower limits."""
+        row = hand.joints.index(axis)
+        positions = low.copy()
+        positions[row] += share * (high[row] - low[row])
+        return hand.points(positions)
+
+    directions = straight.fingers[:, 3] - straight.fingers[:, 0]
     directions /= np.linalg.norm(directions, axis=1)[:, None]
     yield Finding(
         bool((directions[:, 0] > 0.8).all()),
         "x of the palm runs along the straight fingers (cosine over 0.8)",
-        ", ".join(f"{name} {value:.2f}" for name, value in zip(rows, directions[:, 0], strict=True)),
+        ", ".join(f"{name} {value:.2f}" for name, value in zip(hand.fingers, directions[:, 0], strict=True)),
         "hand.palm",
     )
-    across = along[:, 0, 1]
+    across = straight.fingers[:, 0, 1]
     yield Finding(
         bool((np.diff(across) > 0.0).all()),
         "y of the palm points to the little finger's side",
-        ", ".join(f"{name} {value * 1e3:.0f} mm" for name, value in zip(rows, across, strict=True)),
+        ", ".join(f"{name} {value * 1e3:.0f} mm" for name, value in zip(hand.fingers, across, strict=True)),
         "hand.palm",
     )
-    for row, name in enumerate(rows):
-        axis = axes[AXES.index(name)]
-        if axis is None:
-            continue
-        half = 0.5 * (limits[axis][0] + limits[axis][1])
-        bent = _in_palm(robot, {**straight, axis: half})
-        moved = bent[4 * row + 3] - points[4 * row + 3]
+    for row, (axis, finger) in enumerate(zip(hand.joints[-len(hand.fingers) :], hand.fingers, strict=True)):
+        moved = turned(axis, 0.5).fingers[row, 3] - straight.fingers[row, 3]
         yield Finding(
             bool(moved[2] > 0.005),
-            f"{axis} bends the {name} finger towards the palm's side",
+            f"{axis} bends the {finger} finger towards the palm's side",
             f"its tip moves {moved[2] * 1e3:.0f} mm out of the palm at half way",
-            f"groups.right_hand.{name}",
+            f"groups.right_hand.{finger}",
         )
-    for axis, name in zip(axes[:2], ("abductor", "thumb"), strict=True):
-        if axis is not None:
-            ends = _in_palm(robot, {**straight, axis: limits[axis][1]})
-            way = float(np.linalg.norm(ends[-1] - points[-1]))
+    for thumb_axis, name in zip(robot.humanoid.hand_axes("right")[:2], ("abductor", "thumb"), strict=True):
+        if thumb_axis is not None:
+            way = float(np.linalg.norm(turned(thumb_axis, 1.0).thumb[-1] - straight.thumb[-1]))
             yield Finding(
                 way > 0.01,
-                f"{axis} moves the thumb",
+                f"{thumb_axis} moves the thumb",
                 f"its tip is {way * 1e3:.0f} mm away at the other end",
                 f"groups.right_hand.{name}",
             )
-
-
-def _in_palm(robot: Robot, positions: dict[str, float]) -> Array:
-    """The frames of the hand but the palm's, in the palm's axes [m]. Shape (n, 3)."""
-    places = robot.placements(robot.configuration(positions), hand_frames(robot.humanoid))
-    palm = places[0]
-    points: Array = (places[1:, :3, 3] - palm[:3, 3]) @ palm[:3, :3]
-    return points
-
-
-def _named(humanoid: Humanoid, values: Array) -> dict[str, float]:
-    return dict(zip(humanoid.commanded_joints, values.tolist(), strict=True))

@@ -21,7 +21,7 @@ from teo_description.errors import DescriptionError
 from teo_description.humanoid import Humanoid
 
 # Positions written with six decimals may end this little outside a limit that they stand on [rad].
-LIMIT_TOLERANCE = 1e-5
+_LIMIT_TOLERANCE = 1e-5
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -88,19 +88,13 @@ def read_motion(path: Path, humanoid: Humanoid) -> Motion:
 def _check_limits(
     humanoid: Humanoid, names: tuple[str, ...], positions: NDArray[np.float64], where: str
 ) -> None:
-    """Refuse positions that a robot cannot reach.
-
-    Args:
-        humanoid: The robot.
-        names: Joints, m of them.
-        positions: [rad]. Shape (n, m).
-        where: What to call their source in the message.
+    """Refuse positions [rad], a row for each moment, that a robot cannot reach; `where` names their source.
 
     Raises:
         DescriptionError: ``outside_limits``.
     """
     limits = humanoid.limits(names)
-    outside = (positions < limits.lower - LIMIT_TOLERANCE) | (positions > limits.upper + LIMIT_TOLERANCE)
+    outside = (positions < limits.lower - _LIMIT_TOLERANCE) | (positions > limits.upper + _LIMIT_TOLERANCE)
     if outside.any():
         row, column = (int(index) for index in np.argwhere(outside)[0])
         lower, upper, value = limits.lower[column], limits.upper[column], positions[row, column]

@@ -223,11 +223,6 @@ class Robot:
         """
         return self._checker.clearance(self._checked(q))
 
-    @property
-    def shaped_links(self) -> tuple[str, ...]:
-        """Links with collision shapes."""
-        return self._checker.shaped_links
-
     def head_clearance(self, q: Matrix) -> Clearance:
         """The same of the head and neck alone, in a fraction of the time.
 

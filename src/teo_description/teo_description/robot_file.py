@@ -34,19 +34,8 @@ from teo_description.robot_schema import (
 
 # Places that scores name; where a robot has none, the nearest on its body or in its air.
 PLACES = (
-    *(
-        "head_top",
-        "forehead",
-        "temple",
-        "eye",
-        "nose",
-        "ear",
-        "cheek",
-        "mouth",
-        "mouth_corner",
-        "chin",
-        "throat",
-    ),
+    *("head_top", "forehead", "temple", "eye", "nose", "ear"),
+    *("cheek", "mouth", "mouth_corner", "chin", "throat"),
     *("shoulder", "other_shoulder", "upper_chest", "chest", "other_chest", "belly"),
     *("space", "low_space", "middle_space", "shoulder_space", "high_space", "face_space", "beside_head"),
     "spelling",

@@ -149,6 +149,11 @@ class Hand(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         ordered = {name: self.fingers[name] for name in FINGERS if name in self.fingers}
         msgspec.structs.force_setattr(self, "fingers", ordered)
 
+    @property
+    def frames(self) -> tuple[str, ...]:
+        """Palm, the fingers' frames and the thumb's."""
+        return self.palm, *(frame for row in self.fingers.values() for frame in row), *self.thumb
+
 
 class HandDriveSpeeds(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """How fast a drive moves the axes of a hand, and how fast it gets there.

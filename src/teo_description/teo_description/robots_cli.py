@@ -28,7 +28,9 @@ if TYPE_CHECKING:
 # How far the camera of the hand map is from the palm, and what it leaves out before it [m]: the own trunk.
 _HAND_DISTANCE, _HAND_NEAR = 0.6, 0.4
 
-_console, _errors = Console(), Console(stderr=True)
+# No markup: it would swallow units in brackets.
+_console = Console(highlight=False, markup=False, soft_wrap=True)
+_errors = Console(stderr=True, style="red", highlight=False, markup=False, soft_wrap=True)
 _app = typer.Typer(
     add_completion=False, rich_markup_mode=None, help="Robots as data: robots/NAME/robot.yaml."
 )
@@ -43,8 +45,8 @@ def _list() -> None:
             said = load_humanoid(name).file.title
         except DescriptionError as error:
             said = str(error)
-        _console.print(f"{name:12} {said}", highlight=False, markup=False, soft_wrap=True)
-    _console.print(f"looked for in {', '.join(map(str, robot_folders()))}", highlight=False, soft_wrap=True)
+        _console.print(f"{name:12} {said}")
+    _console.print(f"looked for in {', '.join(map(str, robot_folders()))}")
 
 
 @_app.command("show")
@@ -55,15 +57,15 @@ def _show(name: _Name) -> None:
         limits = humanoid.limits()
     except DescriptionError as error:
         _fail(error)
-    _console.print(f"{humanoid.name}: {humanoid.file.title}", highlight=False, markup=False)
-    _console.print(f"description {humanoid.description_hash[:12]}, {humanoid.urdf_path()}", highlight=False)
+    _console.print(f"{humanoid.name}: {humanoid.file.title}")
+    _console.print(f"description {humanoid.description_hash[:12]}, {humanoid.urdf_path()}")
     table = Table("limb", "joint", "from [deg]", "to [deg]", "speed [deg/s]")
     for limb, joints in humanoid.limbs.items():
         for joint in joints:
             row = humanoid.columns([joint])[0]
             figures = np.degrees([limits.lower[row], limits.upper[row], limits.velocity[row]])
             table.add_row(limb, joint, *(f"{figure:.0f}" for figure in figures))
-    _console.print(table)
+    _console.print(table, soft_wrap=False)
 
 
 @_app.command("links")
@@ -73,7 +75,7 @@ def _links(urdf: Annotated[Path, typer.Argument(help="A URDF that has no robot.y
 
     try:
         for line in describe_links(urdf):
-            _console.print(line, highlight=False, markup=False, soft_wrap=True)
+            _console.print(line)
     except DescriptionError as error:
         _fail(error)
 
@@ -92,15 +94,10 @@ def _check(
     try:
         robot = Robot.load(name)
         for line in _frames(robot):
-            _console.print(line, highlight=False, markup=False, soft_wrap=True)
+            _console.print(line)
         failed = []
         for finding in _findings(robot):
-            _console.print(
-                f"{finding.mark:4} {finding.what}: {finding.measured}",
-                highlight=False,
-                markup=False,
-                soft_wrap=True,
-            )
+            _console.print(f"{finding.mark:4} {finding.what}: {finding.measured}")
             if not finding.ok and finding.needed:
                 failed.append(finding)
         if out is not None:
@@ -110,7 +107,7 @@ def _check(
     if failed:
         fields = ", ".join(dict.fromkeys(finding.field for finding in failed))
         sentence = f"{len(failed)} checks failed; look at {fields} in robot.yaml"
-        _errors.print(f"robots: {sentence}", style="red", markup=False, highlight=False, soft_wrap=True)
+        _errors.print(f"robots: {sentence}")
         raise typer.Exit(1)
 
 
@@ -132,14 +129,12 @@ def _pose(
     image = {humanoid.mirrored_name(n): x * s for (n, x), s in zip(arm.items(), signs.tolist(), strict=True)}
     for posture in (arm, image):
         for joint, angle in posture.items():
-            _console.print(f"{joint}: {math.degrees(angle):.0f}.0", highlight=False, soft_wrap=True)
+            _console.print(f"{joint}: {math.degrees(angle):.0f}.0")
     placed = robot.placement(robot.configuration({**arm, **image}), humanoid.file.hand.palm)[:3, 3]
     nearest = robot.clearance(robot.configuration({**arm, **image}))
     _console.print(
         f"palm at {', '.join(f'{x:.2f}' for x in placed)}; {nearest.first} and {nearest.second} are "
-        f"{nearest.distance * 1e3:.0f} mm apart",
-        highlight=False,
-        soft_wrap=True,
+        f"{nearest.distance * 1e3:.0f} mm apart"
     )
 
 
@@ -182,11 +177,8 @@ def _findings(robot: Robot) -> Iterator[Finding]:
 
 
 def _draw(robot: Robot, folder: Path) -> None:
-    from teo_description.pictures.rendering import (  # here: listing needs no OpenCV
-        Renderer,
-        film_strip,
-        save_png,
-    )
+    # Here: listing needs no OpenCV.
+    from teo_description.pictures.rendering import Renderer, film_strip, save_png
 
     renderer, humanoid = Renderer(robot), robot.humanoid
     folder.mkdir(parents=True, exist_ok=True)
@@ -195,7 +187,7 @@ def _draw(robot: Robot, folder: Path) -> None:
     frames = [renderer.render(positions, camera) for positions, camera in views]
     save_png(folder / "postures.png", film_strip(frames, ["home", *("ready",) * 3], 4))
     save_png(folder / "hand.png", _hand_sheet(robot, renderer))
-    _console.print(f"wrote postures.png and hand.png in {folder}", highlight=False, soft_wrap=True)
+    _console.print(f"wrote postures.png and hand.png in {folder}")
 
 
 def _hand_sheet(robot: Robot, renderer: Renderer) -> Image:
@@ -234,9 +226,7 @@ def _hand_sheet(robot: Robot, renderer: Renderer) -> Image:
 
 
 def _fail(error: DescriptionError) -> NoReturn:
-    _errors.print(
-        f"robots: {error.code}: {error}", style="red", markup=False, highlight=False, soft_wrap=True
-    )
+    _errors.print(f"robots: {error.code}: {error}")
     raise typer.Exit(1) from error
 
 

@@ -152,7 +152,9 @@ def collision_checks(robot: Robot) -> Iterator[Finding]:
     """Every part that is watched has a shape, and none touches another at rest."""
     humanoid = robot.humanoid
     watched = {link for pair in watched_pairs(humanoid) for link in pair}
-    bare = sorted(watched - set(robot.shaped_links))
+    links = humanoid.urdf_tree().findall("link")
+    shaped = {link.attrib["name"] for link in links if link.find("collision") is not None}
+    bare = sorted(watched - shaped)
     yield Finding(
         not bare, "every link that is watched has a shape", ", ".join(bare) or "all have", "collision.shapes"
     )
@@ -162,8 +164,7 @@ def collision_checks(robot: Robot) -> Iterator[Finding]:
         ("ready", humanoid.ready, "postures.ready_deg"),
         ("arms apart", apart, "detour.apart_deg"),
     ):
-        positions = dict(zip(humanoid.commanded_joints, posture.tolist(), strict=True))
-        nearest = robot.clearance(robot.configuration(positions))
+        nearest = robot.clearance(robot.configurations(posture))
         yield Finding(
             nearest.distance > 0.0,
             f"nothing touches at {title}",

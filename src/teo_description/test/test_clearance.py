@@ -39,16 +39,6 @@ def test_poses_that_the_real_robot_took_are_free_of_contact(robot, pose):
     assert robot.clearance(robot.configuration(arms(*DEMONSTRATED[pose]))).distance > 0.0
 
 
-def test_a_hand_pressed_into_the_belly_is_a_collision_with_the_trunk(robot):
-    q = robot.configuration(arms(REST, (25, 0, 57.0, -99.6, 0, 0)))
-    x, y, _ = robot.placement(q, "right_palm")[:3, 3]
-    assert 0.0 < x < 0.105  # the front of the trunk's shape (RootWaist.stl: x to 0.12)
-    assert abs(y) < 0.13
-    found = robot.clearance(q)
-    assert found.distance < -0.01
-    assert found.second == "FrontalTrunk_link"
-
-
 def test_hands_that_meet_are_a_collision_of_both(robot):
     positions = arms((-40, -20, -51, -80, 0, 0), (-40, 20, 51, -80, 0, 0))
     found = robot.clearance(robot.configuration(positions))

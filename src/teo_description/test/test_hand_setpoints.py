@@ -42,16 +42,10 @@ def test_an_angle_outside_the_range_is_refused(degrees):
 @pytest.mark.parametrize(
     ("joint", "degrees", "setpoint"),
     [
-        ("LeftIndexFinger", 7.0, 0.0),
-        ("LeftIndexFinger", 85.0, 20.0),
         ("RightPinkyFinger", 46.0, 10.0),
-        ("RightThumbFinger", -90.0, 0.0),
         ("LeftThumbFinger", 0.0, 5.0),
         ("RightThumbFinger", 7.2, 5.4),
-        ("RightThumbFinger", 90.0, 10.0),
-        ("LeftHandAbductor", 0.0, 0.0),
         ("LeftHandAbductor", 57.3, 57.3),
-        ("RightHandAbductor", 90.0, 90.0),
     ],
 )
 def test_an_angle_is_a_tendon_travel_or_a_servo_angle(joint, degrees, setpoint):

@@ -148,21 +148,6 @@ def test_a_renderer_can_be_used_again_and_gives_the_same_picture(renderer):
 
 
 @pytest.mark.parametrize(
-    ("positions", "camera", "code"),
-    [
-        ({"Elbow": 1.0}, "front", "unknown_joint"),
-        ({"AxialNeck": float("nan")}, "front", "not_finite"),
-        ({}, "side", "unknown_camera"),
-        ({}, replace(CAMERAS["hand"], follows="left_foot"), "unknown_frame"),
-    ],
-)
-def test_what_cannot_be_drawn_is_refused(renderer, positions, camera, code):
-    with pytest.raises(DescriptionError) as caught:
-        renderer.render(positions, camera)
-    assert caught.value.code == code
-
-
-@pytest.mark.parametrize(
     "figures",
     [
         {"size": (0, 480)},

@@ -10,41 +10,10 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
-import yaml
 
 from teo_description.errors import DescriptionError
-from teo_description.humanoid import Humanoid, available_robots, load_humanoid, robot_folders
+from teo_description.humanoid import Humanoid, available_robots, load_humanoid
 from teo_description.robot import Robot
-
-
-@pytest.fixture
-def folder(tmp_path, monkeypatch):
-    """A robot of one's own, ``mine``, which is the second robot."""
-    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path))
-    mine = tmp_path / "teo" / "robots" / "mine"
-    shutil.copytree(robot_folders()[1] / "gr1t2", mine)
-    return mine
-
-
-@pytest.fixture
-def change(folder):
-    """Changes a field of ``mine``, named by its path, or removes it."""
-
-    def apply(field: str, value: object = None) -> Humanoid:
-        path = folder / "robot.yaml"
-        content = yaml.load(path.read_text(), Loader=yaml.CSafeLoader)
-        *way, last = field.split(".")
-        place = content
-        for key in way:
-            place = place[key]
-        if value is None:
-            del place[last]
-        else:
-            place[last] = value
-        path.write_text(yaml.dump(content, Dumper=yaml.CSafeDumper, sort_keys=False))
-        return Humanoid(folder)
-
-    return apply
 
 
 def refused(act) -> str:

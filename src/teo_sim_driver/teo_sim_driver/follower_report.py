@@ -45,11 +45,6 @@ class Tally:
     limited_steps: int = 0
     limited_joints: tuple[str, ...] = ()
 
-    def refuse(self, refusal: TrajectoryError) -> None:
-        """Enter a refusal."""
-        self.refused[refusal.code] += 1
-        self.refusals.append(refusal)
-
 
 @dataclass(frozen=True, kw_only=True)
 class FollowerReport:

@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from enum import IntEnum
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -50,51 +49,8 @@ def result_code(refusal: str) -> ResultCode:
     return _RESULT.get(Refusal(refusal), ResultCode.INVALID_GOAL)
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Tolerances:
-    """How far the joints may be from where they are to be; infinite where it does not matter.
-
-    Attributes:
-        path: Position [rad] and velocity [rad/s] on the way. Shape (2, joints).
-        goal: The same at the end.
-        goal_time: How long the joints may take to come within `goal` after the end of the trajectory [s]; 0
-            for as long as they like.
-    """
-
-    path: FloatArray
-    goal: FloatArray
-    goal_time: float
-
-    @staticmethod
-    def read(
-        joints: Sequence[str],
-        path: Iterable[JointTolerance],
-        goal: Iterable[JointTolerance],
-        goal_time: float,
-    ) -> Tolerances:
-        """Read the tolerances of a goal.
-
-        Args:
-            joints: Of the driver.
-            path: On the way.
-            goal: At the end.
-            goal_time: [s].
-
-        Raises:
-            TrajectoryError: ``bad_tolerance``.
-        """
-        if not goal_time >= 0.0:
-            raise TrajectoryError(
-                Refusal.BAD_TOLERANCE, f"expected goal_time_tolerance >= 0 s, got {goal_time:g} s"
-            )
-        return Tolerances(
-            path=_table(joints, path, "path_tolerance"),
-            goal=_table(joints, goal, "goal_tolerance"),
-            goal_time=goal_time,
-        )
-
-
 def _table(joints: Sequence[str], tolerances: Iterable[JointTolerance], what: str) -> FloatArray:
+    """Position [rad] and velocity [rad/s], infinite where it does not matter. Shape (2, joints)."""
     table = np.full((2, len(joints)), np.inf)
     for each in tolerances:
         if each.name not in joints:
@@ -130,9 +86,31 @@ class Verdict(NamedTuple):
 class GoalMonitor:
     """Watches one goal."""
 
-    def __init__(self, joints: Sequence[str], tolerances: Tolerances) -> None:
-        self._joints = joints
-        self._tolerances = tolerances
+    def __init__(
+        self,
+        joints: Sequence[str],
+        path: Iterable[JointTolerance],
+        goal: Iterable[JointTolerance],
+        goal_time: float,
+    ) -> None:
+        """Read the tolerances of a goal.
+
+        Args:
+            joints: Of the driver.
+            path: How far they may be from where they are to be on the way.
+            goal: The same at the end.
+            goal_time: How long they may take to come within `goal` after the end [s]; 0: as they like.
+
+        Raises:
+            TrajectoryError: ``bad_tolerance``.
+        """
+        if not goal_time >= 0.0:
+            raise TrajectoryError(
+                Refusal.BAD_TOLERANCE, f"expected goal_time_tolerance >= 0 s, got {goal_time:g} s"
+            )
+        self._joints, self._goal_time = joints, goal_time
+        self._path = _table(joints, path, "path_tolerance")
+        self._goal = _table(joints, goal, "goal_tolerance")
         self._ended: float | None = None
 
     def step(self, desired: MotionState, measured: MotionState, time: float, ended: bool) -> Verdict | None:
@@ -148,15 +126,15 @@ class GoalMonitor:
             How the goal ended; None while it goes on.
         """
         if not ended:
-            beyond = self._beyond(self._tolerances.path, desired, measured)
+            beyond = self._beyond(self._path, desired, measured)
             return Verdict(ResultCode.PATH_TOLERANCE_VIOLATED, beyond) if beyond else None
         if self._ended is None:
             self._ended = time
-        beyond = self._beyond(self._tolerances.goal, desired, measured)
+        beyond = self._beyond(self._goal, desired, measured)
         if not beyond:
             return Verdict(ResultCode.SUCCESSFUL, "")
         waited = time - self._ended
-        if self._tolerances.goal_time == 0.0 or waited < self._tolerances.goal_time:
+        if self._goal_time == 0.0 or waited < self._goal_time:
             return None
         return Verdict(
             ResultCode.GOAL_TOLERANCE_VIOLATED, f"{beyond}, {waited:.3f} s after the end of the trajectory"

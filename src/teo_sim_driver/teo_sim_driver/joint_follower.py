@@ -17,7 +17,7 @@ from teo_sim_driver.checking.scheduling import schedule
 from teo_sim_driver.follower_report import FollowerReport, Gate, Mode, Source, Tally
 from teo_sim_driver.motion.bezier import FloatArray
 from teo_sim_driver.motion.commanded_path import Command, CommandedPath
-from teo_sim_driver.motion.path_time import DEFAULT_BRAKING, Braking, PathClock, PathPace, fastest_ahead
+from teo_sim_driver.motion.path_time import DEFAULT_BRAKING, PathClock, PathPace, fastest_ahead
 from teo_sim_driver.motion.trajectory import MotionState, Trajectory
 from teo_sim_driver.rules import (
     POSITION_TOLERANCE,
@@ -46,27 +46,17 @@ _MOST_LATE = 0.2
 class JointFollower:
     """Executes trajectories, of all joints or of some. Owns no clock: every call says what time it is [ns].
 
-    Whatever is being executed is one trajectory of all joints (`side_by_side`), so that all of them slow down
-    together when the pace changes.
+    What is being executed is one trajectory of all joints (`CommandedPath`): all of them slow down together
+    when the pace changes.
     """
 
-    def __init__(
-        self,
-        *,
-        limits: JointLimits,
-        start: FloatArray,
-        period: float,
-        rules: Rules | None = None,
-        braking: Braking = DEFAULT_BRAKING,
-    ) -> None:
+    def __init__(self, *, limits: JointLimits, start: FloatArray, period: float) -> None:
         """Stand still, ready to move.
 
         Args:
             limits: Of the joints that are commanded.
             start: Their positions now [rad]. Shape (joints,).
             period: Usual time between two steps [s].
-            rules: Limits on messages; may be exchanged later.
-            braking: What slowing down and speeding up may add; may be exchanged later.
 
         Raises:
             DriverError: ``start_outside_limits``.
@@ -77,8 +67,10 @@ class JointFollower:
             raise DriverError(
                 "start_outside_limits", f"expected a start within the joint limits; not so: {outside}"
             )
-        self.rules = rules or Rules()
-        self.braking = braking
+        self.rules = Rules()
+        """Limits on messages; may be exchanged at any time."""
+        self.braking = DEFAULT_BRAKING
+        """What slowing down and speeding up may add; may be exchanged at any time."""
         self.limits = limits
         self._clock = PathClock(period)
         self._period = period
@@ -165,7 +157,8 @@ class JointFollower:
 
     def count_refusal(self, refusal: TrajectoryError) -> None:
         """Enter a refusal into the report."""
-        self._tally.refuse(refusal)
+        self._tally.refused[refusal.code] += 1
+        self._tally.refusals.append(refusal)
 
     def cancel(self, now: int, command: Command | None = None) -> float:
         """Slow down on the path until the joints stand still, and hold there.

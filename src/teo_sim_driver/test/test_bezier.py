@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import BPoly
 
-from teo_sim_driver.motion.bezier import CUBIC, LINEAR, QUINTIC, control_points, derivative, first_excess
+from teo_sim_driver.motion.bezier import CUBIC, LINEAR, QUINTIC, first_excess
 from teo_sim_driver.motion.trajectory import Trajectory
 
 GIVEN = {LINEAR: 1, CUBIC: 2, QUINTIC: 3}  # derivatives that a point gives, the zeroth included
@@ -97,16 +97,3 @@ def test_a_curve_that_is_not_finite_is_outside():
     assert first_excess(control, np.array([-1.0]), np.array([1.0])).segment == 1
     control[3, 1, 0] = np.inf
     assert first_excess(control, np.array([-1.0]), np.array([1.0])).segment == 1
-
-
-def test_a_plateau_exactly_on_the_bound_is_inside():
-    control = control_points(
-        np.array([1.0]),
-        np.array([[LINEAR]], np.int8),
-        np.array([[0.0], [0.3]]),
-        np.zeros((2, 1)),
-        np.zeros((2, 1)),
-    )
-    velocity = derivative(control, np.array([1.0]))
-    assert first_excess(velocity, np.array([-0.3]), np.array([0.3])) is None
-    assert first_excess(control, np.array([0.0]), np.array([0.3])) is None

@@ -166,16 +166,6 @@ def test_random_commands_of_limbs_and_body_break_no_limit_and_never_step(robot, 
     assert robot.follower.report().limited_steps == 0
 
 
-def test_the_whole_body_takes_over_from_limbs(robot):
-    left, right = robot.send("left_arm", LEFT, -0.5), robot.send("right_arm", RIGHT, -0.5)
-    robot.run(1.0)
-    whole = robot.send("", RIGHT, 0.0)
-    assert left.preempted_by is whole
-    assert right.preempted_by is whole
-    robot.run(3.5)
-    assert robot.at(LEFT) == robot.home[column(LEFT)]
-
-
 def test_until_a_scheduled_limb_starts_all_goes_on(robot):
     robot.send("", RIGHT, -0.5)
     robot.run(0.5)

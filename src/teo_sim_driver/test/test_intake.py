@@ -54,7 +54,7 @@ def test_the_longest_good_message_is_not_too_large(intake, swing):
 
 def test_more_than_can_be_checked_are_refused(intake, monkeypatch):
     gate = threading.Event()
-    monkeypatch.setattr(intake, "_check", lambda *_: gate.wait(20.0))
+    monkeypatch.setattr("teo_sim_driver.checking.validation.check", lambda *_, **__: gate.wait(20.0))
     for _ in range(MOST_WAITING):
         intake.put(b"", Rules(), None)
     with pytest.raises(TrajectoryError) as refusal:

@@ -78,25 +78,6 @@ def test_a_new_trajectory_takes_over_at_any_pace_without_a_step(
     assert follower.report().accepted == 2
 
 
-def test_until_a_scheduled_trajectory_starts_the_present_one_goes_on(new_follower, swing, limits, home):
-    follower, alone = new_follower(), new_follower()
-    send(follower, swing(), START)
-    send(alone, swing(), START)
-    now, _, _ = run(follower, START, 0.5)
-    run(alone, START, 0.5)
-    target = home.copy()
-    target[limits.names.index("AxialNeck")] = 0.4
-    later = trajectory_message(
-        limits.names, [2.0], target[None], np.zeros((1, 28)), np.zeros((1, 28)), stamp=now + SECOND
-    )
-    send(follower, later, now)
-    now_too, ours, _ = run(follower, now, 1.0)
-    np.testing.assert_allclose(ours, run(alone, now, 1.0)[1], atol=1e-9)
-    _, positions, _ = run(follower, now_too, 2.5)
-    assert np.abs(np.diff(np.vstack([ours, positions]), axis=0)).max() < limits.velocity[0] * 0.01
-    np.testing.assert_array_equal(positions[-1], target)
-
-
 @pytest.mark.parametrize("moment", [0.05, 0.5, 1.0, 1.7, 3.9])
 def test_stop_ends_at_rest_on_the_path_in_the_time_it_says(new_follower, swing, limits, moment):
     follower = new_follower()

@@ -7,7 +7,6 @@ import math
 import numpy as np
 import pytest
 
-from teo_description import DescriptionError
 from teo_description.humanoid import load_humanoid
 from teo_names import COMMANDED_JOINTS, HOME
 from teo_sim_driver.position_direct import position_direct
@@ -57,8 +56,3 @@ def test_every_board_is_told_of_its_axes_in_its_order():
 def test_a_board_hears_degrees_and_millimetres_of_tendon(board, joint, degrees, heard):
     message = told(**{joint: math.radians(degrees)})[f"/teo/{board}/position_direct"]
     assert as_the_board_hears(message, joint) == pytest.approx(heard, abs=1e-9)
-
-
-def test_a_finger_outside_the_range_of_its_tendon_is_refused():
-    with pytest.raises(DescriptionError, match="RightIndexFinger"):
-        told(RightIndexFinger=2.0)

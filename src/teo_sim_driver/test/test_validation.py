@@ -46,10 +46,7 @@ def put(message, point, field, column, value):
 
 
 def change(field, value, point=3):
-    def mutate(message):
-        setattr(message.points[point], field, value)
-
-    return mutate
+    return lambda message: setattr(message.points[point], field, value)
 
 
 def put_time(seconds, nanoseconds, point=3):
@@ -60,78 +57,48 @@ def put_value(field, value, point=3, column=5):
     return lambda message: put(message, point, field, column, value)
 
 
-def names(change_names):
-    def mutate(message):
-        message.joint_names = change_names(list(message.joint_names))
-
-    return mutate
+def names(changed):
+    return lambda message: setattr(message, "joint_names", changed(list(message.joint_names)))
 
 
-def drop_last_joint(message):
-    message.joint_names = message.joint_names[:-1]
+def take_joints(message, columns):
+    message.joint_names = [message.joint_names[i] for i in columns]
     for point in message.points:
-        point.positions, point.velocities, point.accelerations = (
-            point.positions[:-1],
-            point.velocities[:-1],
-            point.accelerations[:-1],
-        )
+        for field in ("positions", "velocities", "accelerations"):
+            setattr(point, field, [getattr(point, field)[i] for i in columns])
 
 
-def stamp(nanoseconds):
-    def mutate(message):
-        message.header.stamp = Time(sec=nanoseconds // 10**9, nanosec=nanoseconds % 10**9)
-
-    return mutate
-
-
-def only_accelerations(message):
-    message.points[2].velocities = []
+def stamp(seconds, nanoseconds):
+    return lambda message: setattr(message.header, "stamp", Time(sec=seconds, nanosec=nanoseconds))
 
 
 WRONG = {
     "no names": (names(lambda _: []), "no_joints"),
     "a name of no joint": (names(lambda n: ["Elbow", *n[1:]]), "unknown_joint"),
-    "a phalanx, which follows its tendon": (
-        names(lambda n: ["RightIndexFingerMiddle", *n[1:]]),
-        "unknown_joint",
-    ),
-    "an empty name": (names(lambda n: ["", *n[1:]]), "unknown_joint"),
+    "a phalanx, led by its tendon": (names(lambda n: ["RightIndexFingerMiddle", *n[1:]]), "unknown_joint"),
     "a leg": (names(lambda n: ["FrontalLeftKnee", *n[1:]]), "held_joint"),
     "a name twice": (names(lambda n: [n[1], *n[1:]]), "duplicate_joint"),
-    "a name too many": (names(lambda n: [*n, n[0]]), "duplicate_joint"),
-    "a joint left out": (drop_last_joint, "missing_joints"),
+    "a joint left out": (lambda m: take_joints(m, range(27)), "missing_joints"),
     "no points": (lambda m: setattr(m, "points", []), "no_points"),
     "too many points": (lambda m: setattr(m, "points", m.points * 1000), "too_many_points"),
     "no positions": (change("positions", []), "wrong_length"),
-    "too few positions": (change("positions", [0.0] * 27), "wrong_length"),
     "too many velocities": (change("velocities", [0.0] * 29), "wrong_length"),
     "too few accelerations": (change("accelerations", [0.0]), "wrong_length"),
-    "accelerations alone": (only_accelerations, "accelerations_without_velocities"),
+    "accelerations alone": (change("velocities", []), "accelerations_without_velocities"),
     "effort": (change("effort", [0.0] * 28), "effort_given"),
-    "nanoseconds over a second": (
-        put_time(0, 1_000_000_000),
-        "bad_time",
-    ),
-    "a stamp with nanoseconds over a second": (
-        lambda m: setattr(m.header, "stamp", Time(sec=5, nanosec=4_000_000_000)),
-        "bad_time",
-    ),
+    "nanoseconds over a second": (put_time(0, 1_000_000_000), "bad_time"),
+    "a stamp with nanoseconds over a second": (stamp(5, 4_000_000_000), "bad_time"),
     "a negative time": (put_time(-1, 0, point=0), "negative_time"),
     "a time twice": (put_time(0, 300_000_000), "times_not_increasing"),
     "a time that goes back": (put_time(0, 1), "times_not_increasing"),
-    "an absurd duration": (
-        put_time(2**31 - 1, 0, point=-1),
-        "too_long",
-    ),
-    "an end that has passed": (stamp(NOW - 4_000_000_001), "ends_in_the_past"),
-    "a negative stamp": (stamp(-5_000_000_000), "ends_in_the_past"),
-    "a start in an hour": (stamp(NOW + 3600 * 10**9), "starts_too_late"),
+    "an absurd duration": (put_time(2**31 - 1, 0, point=-1), "too_long"),
+    "an end that has passed": (stamp(*divmod(NOW - 4_000_000_001, 10**9)), "ends_in_the_past"),
+    "a negative stamp": (stamp(-5, 0), "ends_in_the_past"),
+    "a start in an hour": (stamp(*divmod(NOW + 3600 * 10**9, 10**9)), "starts_too_late"),
     "a position that is no number": (put_value("positions", float("nan")), "not_finite"),
-    "an infinite position": (put_value("positions", float("-inf")), "not_finite"),
     "a velocity that is no number": (put_value("velocities", float("nan")), "not_finite"),
     "an infinite acceleration": (put_value("accelerations", float("inf")), "not_finite"),
     "a position outside the limits": (put_value("positions", -3.0), "position_limit"),
-    "a huge position": (put_value("positions", 1e308), "position_limit"),
     "a velocity over the limit": (put_value("velocities", 0.9), "velocity_limit"),
     "a velocity at the end": (put_value("velocities", 0.01, point=-1), "moving_at_end"),
     "a jump between points": (put_value("positions", 0.5), "speed_between_points"),
@@ -160,14 +127,9 @@ def test_a_good_message_with_one_thing_wrong_is_refused_for_that_reason(mutate, 
     assert len(refusal.sentence) > 20
 
 
-def test_names_may_come_in_any_order(limits, swing, check):
+def test_names_may_come_in_any_order(swing, check):
     message = swing()
-    order = np.random.default_rng(0).permutation(28)
-    message.joint_names = [limits.names[i] for i in order]
-    for point in message.points:
-        point.positions = [point.positions[i] for i in order]
-        point.velocities = [point.velocities[i] for i in order]
-        point.accelerations = [point.accelerations[i] for i in order]
+    take_joints(message, np.random.default_rng(0).permutation(28))
     shuffled, straight = check(message).trajectory, check(swing()).trajectory
     np.testing.assert_array_equal(shuffled.positions, straight.positions)
     np.testing.assert_array_equal(shuffled.accelerations, straight.accelerations)
@@ -187,7 +149,7 @@ def test_a_motion_of_another_robot_is_refused_with_what_to_do(swing, refused):
 
 def test_a_name_of_a_megabyte_is_not_repeated_in_full(swing, refused):
     message = swing()
-    message.joint_names = ["x" * 1_000_000, *message.joint_names[1:]]
+    message.joint_names[0] = "x" * 1_000_000
     assert len(refused(message).sentence) < 2000
 
 

@@ -24,7 +24,6 @@ from teo_description.robot import Robot
 # Triangles that are left of a mesh longer than 8 cm, such as a trunk, and of a smaller one, such as a finger.
 _LARGE, _TRIANGLES_LARGE, _TRIANGLES_SMALL = 0.08, 2000, 400
 
-
 # Cosine of the angle to the surface about its corner up to which a mesh's triangle is shaded as round.
 _CREASE = math.cos(math.radians(35.0))
 

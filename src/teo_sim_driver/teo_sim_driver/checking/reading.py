@@ -17,7 +17,7 @@ import struct
 from collections import Counter
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -40,21 +40,19 @@ _LEAP = 8
 class _Block(NamedTuple):
     """Points that follow one another and are alike in the lengths of their fields."""
 
-    first: int
-    size: int
-    """Number of points."""
-    start: int
-    """Of the first point [bytes after the encapsulation]."""
-    stride: int
-    """[bytes]"""
+    rows: slice
+    """Which of the message's points."""
     lengths: tuple[int, ...]
     """Of each of `FIELDS`."""
-    offsets: tuple[int, ...]
-    """Of the lengths, of each of `FIELDS`, within a point [bytes]."""
-    values: tuple[int, ...]
-    """Of the first value of each of `FIELDS` within a point [bytes]."""
-    time: int
-    """Of time_from_start within a point [bytes]."""
+    points: NDArray[np.void]
+    """With `sec` and `nanosec` of time_from_start, and those of `FIELDS` that are given. Shape (n,)."""
+
+
+@lru_cache(maxsize=64)  # making one takes longer than reading a point: a message has few
+def _point_type(layout: tuple[tuple[str, str, int], ...]) -> np.dtype[np.void]:
+    """Of a point's members: name, format, and place in the point [bytes]."""
+    names, formats, offsets = zip(*layout, strict=True)
+    return np.dtype({"names": names, "formats": formats, "offsets": offsets})
 
 
 # A header's name is shown up to this length [bytes]: many times as long as any that is in use.
@@ -101,7 +99,7 @@ class CdrTrajectory:
         """Number of values of each of `FIELDS` at each point. Shape (n, 4)."""
         return np.repeat(
             np.array([block.lengths for block in self._blocks], dtype=np.int64).reshape(-1, len(FIELDS)),
-            [block.size for block in self._blocks],
+            [len(block.points) for block in self._blocks],
             axis=0,
         )
 
@@ -110,9 +108,8 @@ class CdrTrajectory:
         """time_from_start of each point [s], [ns]. Shape (n, 2)."""
         times = np.empty((self.count, 2), dtype=np.int64)
         for block in self._blocks:
-            rows = slice(block.first, block.first + block.size)
-            times[rows, 0] = self._column(block, block.time, "i4", 1)[:, 0]
-            times[rows, 1] = self._column(block, block.time + 4, "u4", 1)[:, 0]
+            times[block.rows, 0] = block.points["sec"]
+            times[block.rows, 1] = block.points["nanosec"]
         return times
 
     def table(self, field: int) -> FloatArray:
@@ -124,61 +121,48 @@ class CdrTrajectory:
         table = np.zeros((self.count, len(self.names)))
         for block in self._blocks:
             if block.lengths[field]:
-                table[block.first : block.first + block.size] = self._column(
-                    block, block.values[field], "f8", block.lengths[field]
-                )
+                table[block.rows] = block.points[FIELDS[field]]
         return table
 
     @cached_property
     def _blocks(self) -> list[_Block]:
         blocks: list[_Block] = []
-        first = 0
-        while first < self.count:
-            block = self._block(first)
-            blocks.append(block)
-            first += block.size
-            self._at = block.start + block.size * block.stride
+        read = 0
+        while read < self.count:
+            blocks.append(self._block(read))
+            read = blocks[-1].rows.stop
         return blocks
 
     def _block(self, first: int) -> _Block:
         """The point at the present place, and all after it that are alike."""
         start = self._at
-        lengths, offsets, values = [], [], []
-        for _ in FIELDS:
+        lengths, layout = [], []
+        for field in FIELDS:
             (length,) = self._take("I")
-            offsets.append(self._at - 4 - start)
+            lengths.append(length)
+            layout.append((f"length of {field}", self._order + "u4", self._at - 4 - start))
             if length:
                 self._at += -self._at % 8
-            values.append(self._at - start)
+                layout.append((field, f"({length},){self._order}f8", self._at - start))
             self._skip(8 * length)
-            lengths.append(length)
         self._take("iI")
         stride = self._at - start
-        block = _Block(first, 1, start, stride, tuple(lengths), tuple(offsets), tuple(values), stride - 8)
-        if stride % 8:
-            return block  # the next point lies otherwise in the eight bytes of a number
-        most = min(self.count - first, (len(self._data) - start) // stride)
-        count = 1
-        while count < most:  # by leaps, so that points that all differ cost no more than their number
-            reach = min(_LEAP * count, most)
-            alike = np.ones(reach, dtype=np.bool_)
-            for length, offset in zip(lengths, offsets, strict=True):
-                alike &= self._column(block._replace(size=reach), offset, "u4", 1)[:, 0] == length
-            if not alike.all():
-                return block._replace(size=int(np.argmin(alike)))
-            count = reach
-        return block._replace(size=count)
-
-    def _column(self, block: _Block, offset: int, kind: str, width: int) -> NDArray[np.generic]:
-        """Values at the same place of every point of a block. Shape (count, width)."""
-        size = int(kind[1])
-        return np.ndarray(
-            (block.size, width),
-            dtype=self._order + kind,
-            buffer=self._data,
-            offset=block.start + offset,
-            strides=(block.stride, size),
-        )
+        layout += [("sec", self._order + "i4", stride - 8), ("nanosec", self._order + "u4", stride - 4)]
+        point, size = _point_type(tuple(layout)), 1
+        # Where a point's size is no multiple of eight, the next one's numbers lie at other places in it.
+        most = 1 if stride % 8 else min(self.count - first, (len(self._data) - start) // stride)
+        while size < most:  # by leaps, so that points that all differ cost no more than their number
+            reach = min(_LEAP * size, most)
+            points = np.frombuffer(self._data, point, reach, start)
+            alike = np.all(
+                [points[f"length of {field}"] == n for field, n in zip(FIELDS, lengths, strict=True)], axis=0
+            )
+            size = reach if alike.all() else int(np.argmin(alike))
+            if size < reach:
+                break
+        points = np.frombuffer(self._data, point, size, start)
+        self._at = start + points.nbytes
+        return _Block(slice(first, first + size), tuple(lengths), points)
 
     def _take(self, kinds: str) -> tuple[int, ...]:
         """Numbers of four bytes."""

@@ -11,7 +11,14 @@ import numpy as np
 
 from teo_description import JointLimits
 from teo_sim_driver.checking.reading import Points
-from teo_sim_driver.checking.validation import Codes, check_between, first_place, of_joints, per_joint
+from teo_sim_driver.checking.validation import (
+    Codes,
+    check_between,
+    first_place,
+    of_joints,
+    per_joint,
+    through,
+)
 from teo_sim_driver.motion.bezier import FloatArray
 from teo_sim_driver.motion.path_time import SECOND
 from teo_sim_driver.motion.trajectory import MotionState, Trajectory
@@ -71,15 +78,16 @@ def schedule(
         delay, passed = _where_they_meet(points, delay, state_in)
     start = state_in(delay).of_joints(points.columns)
     limits = of_joints(limits, points.columns)
-    due = _times_from_start(points, passed)
+    due = (points.times - passed) / SECOND  # from the moment that the execution starts [s]; <= 0: due or past
     if due[0] <= 0.0:
         _check_start(points, due, start, limits, rules)
     trajectory, first = _from_state(points, due, start)
     check_between(
-        trajectory.first_segment(),
+        trajectory,
         limits,
         lambda _: f"between the robot's present state and point {first}",
         _START,
+        most=1,
     )
     return Scheduled(delay, trajectory)
 
@@ -134,11 +142,6 @@ def _where_they_meet(
     return max(moment, 0.0), round(max(-moment, 0.0) * SECOND)
 
 
-def _times_from_start(points: Points, passed: int) -> FloatArray:
-    """When each point is due, from the moment that the execution starts [s]; <= 0 for what is due or past."""
-    return np.asarray((points.times - passed) / SECOND)
-
-
 def _check_start(
     points: Points, due: FloatArray, start: MotionState, limits: JointLimits, rules: Rules
 ) -> None:
@@ -147,13 +150,7 @@ def _check_start(
     where = points.positions[:past]
     if past < len(due):
         around = slice(past - 1, past + 1)
-        between = Trajectory(
-            due[around] - due[past - 1],
-            points.positions[around],
-            points.velocities[around],
-            points.accelerations[around],
-            per_joint(np.minimum(points.degrees[past - 1 : past], points.degrees[past : past + 1]), points),
-        )
+        between = through(points, due[around] - due[past - 1], around)
         where = np.vstack([where, between.sample(-float(due[past - 1])).positions])
     low, high = where.min(axis=0), where.max(axis=0)
     distance = np.maximum(low - start.positions, start.positions - high)

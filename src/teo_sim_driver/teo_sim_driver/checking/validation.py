@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from teo_description import JointLimits
 from teo_sim_driver.checking.reading import CdrTrajectory, Points, read
-from teo_sim_driver.motion.bezier import first_excess
+from teo_sim_driver.motion.bezier import FloatArray, first_excess
 from teo_sim_driver.motion.path_time import SECOND
 from teo_sim_driver.motion.trajectory import Trajectory
 from teo_sim_driver.rules import (
@@ -68,13 +68,7 @@ def check(
     points = read(CdrTrajectory(data), joints=limits.names, held=held, rules=rules, group=group)
     limits = of_joints(limits, points.columns)
     _check_points(points, limits)
-    trajectory = Trajectory(
-        points.times / SECOND,
-        points.positions,
-        points.velocities,
-        points.accelerations,
-        per_joint(np.minimum(points.degrees[:-1], points.degrees[1:]), points),
-    )
+    trajectory = through(points, points.times / SECOND, slice(None))
     check_between(trajectory, limits, lambda segment: f"between points {segment} and {segment + 1}", _BETWEEN)
     return _in_order(points)
 
@@ -128,13 +122,30 @@ def per_joint(degrees: NDArray[np.int8], points: Points) -> NDArray[np.int8]:
     return np.broadcast_to(degrees[:, None], (len(degrees), len(points.columns))).copy()
 
 
+def through(points: Points, times: FloatArray, rows: slice) -> Trajectory:
+    """A trajectory through some of the points at these times [s]: a segment uses what both its ends give."""
+    degrees = points.degrees[rows]
+    return Trajectory(
+        times,
+        points.positions[rows],
+        points.velocities[rows],
+        points.accelerations[rows],
+        per_joint(np.minimum(degrees[:-1], degrees[1:]), points),
+    )
+
+
 def check_between(
-    trajectory: Trajectory, limits: JointLimits, place: Callable[[int], str], codes: Codes
+    trajectory: Trajectory,
+    limits: JointLimits,
+    place: Callable[[int], str],
+    codes: Codes,
+    *,
+    most: int | None = None,
 ) -> None:
-    """Refuse what is over a limit between points; `place` names a segment."""
+    """Refuse what is over a limit between points, in the first segments or all; `place` names a segment."""
     top = limits.velocity * (1.0 + VELOCITY_TOLERANCE)
     low, high = limits.lower - POSITION_TOLERANCE, limits.upper + POSITION_TOLERANCE
-    count = len(trajectory.degrees)
+    count = len(trajectory.degrees[:most])
     for begin in range(0, count, _CHUNK):
         span = slice(begin, min(begin + _CHUNK, count))
         durations = trajectory.durations(span)
@@ -228,7 +239,10 @@ class Intake(Generic[Sender]):
                 f"expected at most {MOST_WAITING} trajectories at once, got one more: send them more slowly",
             )
         joints = self._limits.names if group is None else group.joints
-        self._waiting.append(Checked(sender, self._worker.submit(self._check, message, rules, joints)))
+        result = self._worker.submit(
+            check, message, limits=self._limits, rules=rules, held=self._held, group=joints
+        )
+        self._waiting.append(Checked(sender, result))
 
     def take(self) -> list[Checked[Sender]]:
         """What has been checked since the last call, in the order in which it was put."""
@@ -240,6 +254,3 @@ class Intake(Generic[Sender]):
     def close(self) -> None:
         """End the thread, when it has done what it is at."""
         self._worker.shutdown(cancel_futures=True)
-
-    def _check(self, message: bytes, rules: Rules, group: tuple[str, ...]) -> Points:
-        return check(message, limits=self._limits, rules=rules, held=self._held, group=group)

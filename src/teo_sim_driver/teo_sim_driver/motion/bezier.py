@@ -24,8 +24,6 @@ LINEAR, CUBIC, QUINTIC = 1, 3, 5
 
 # Halving a piece brings its hull about four times nearer to the curve: after this many, nearer than rounding.
 _HALVINGS = 24
-# Rounding of control points of some radians; far below every tolerance in use [rad], [rad/s].
-_ROUNDING = 1e-10
 
 
 class Excess(NamedTuple):
@@ -114,6 +112,7 @@ def bernstein(degree: int, fraction: float | FloatArray) -> FloatArray:
     return weights
 
 
+@np.errstate(invalid="ignore", over="ignore")
 def first_excess(control: FloatArray, lower: FloatArray, upper: FloatArray) -> Excess | None:
     """Find a place where a curve leaves [lower, upper], or None if no curve does.
 
@@ -125,11 +124,6 @@ def first_excess(control: FloatArray, lower: FloatArray, upper: FloatArray) -> E
         lower: Per joint, in the unit of the control points. Shape (joints,).
         upper: Per joint. Shape (joints,).
     """
-    with np.errstate(invalid="ignore", over="ignore"):
-        return _first_excess(control, lower - _ROUNDING, upper + _ROUNDING)
-
-
-def _first_excess(control: FloatArray, lower: FloatArray, upper: FloatArray) -> Excess | None:
     outside = ~((control >= lower) & (control <= upper)).all(axis=0)
     if not outside.any():
         return None
@@ -140,8 +134,8 @@ def _first_excess(control: FloatArray, lower: FloatArray, upper: FloatArray) -> 
     for _ in range(_HALVINGS):
         low, high = lower[joints], upper[joints]
         for end, offset in ((0, 0.0), (-1, width)):
-            # Written so that a NaN, which is never >=, counts as outside.
-            inside = (pieces[end] >= low) & (pieces[end] <= high) & np.isfinite(pieces).all(axis=0)
+            # Written so that a NaN, which is never >=, counts as outside; halving brings it to an end.
+            inside = (pieces[end] >= low) & (pieces[end] <= high)
             if not inside.all():
                 return _excess(int(np.argmin(inside)), pieces[end], segments, joints, starts + offset)
         hull_outside = ~((pieces >= low) & (pieces <= high)).all(axis=0)

@@ -21,7 +21,7 @@ from teo_sim_driver.motion.trajectory import SAME_TIME, MotionState, Trajectory
 _STEP = 0.01
 
 
-class Part(NamedTuple):
+class _Part(NamedTuple):
     """What some of the joints do."""
 
     columns: NDArray[np.intp]
@@ -30,7 +30,7 @@ class Part(NamedTuple):
     """Of these joints, from the same moment on as the other parts; afterwards they stand still."""
 
 
-def side_by_side(parts: Sequence[Part]) -> Trajectory:
+def _side_by_side(parts: Sequence[_Part]) -> Trajectory:
     """Bring parts together, each of which goes on exactly as it would alone.
 
     A polynomial that is split at a point remains the same polynomial, so that points of one part are put into
@@ -62,32 +62,6 @@ def side_by_side(parts: Sequence[Part]) -> Trajectory:
         still[inside[:-1]] = alone.degrees[segment[:-1][inside[:-1]]]
         degrees[:, columns] = still
     return Trajectory(times, positions, velocities, accelerations, degrees)
-
-
-def slowed_down(trajectory: Trajectory, start: float, limits: FloatArray, braking: Braking) -> Trajectory:
-    """From a moment on along the path until the joints stand still on it.
-
-    Args:
-        trajectory: Of the joints that are to stop.
-        start: Where on it they begin to [s].
-        limits: Velocity limit of each of them [rad/s]. Shape (joints,).
-        braking: What slowing down may add to their motion.
-    """
-    pace = PathPace()
-    pace.turn(0.0, fastest_ahead(trajectory, start, limits, braking), braking)
-    steps = math.ceil(pace.remaining / _STEP)
-    here = trajectory.sample(start)
-    if steps == 0:
-        return Trajectory.hold(here.positions)
-    times = np.linspace(0.0, pace.remaining, steps + 1)
-    place = start
-    rows = [here]
-    for duration in np.diff(times):
-        place += pace.advance(float(duration))
-        rows.append(trajectory.sample(place).at_pace(pace.rate, pace.acceleration))
-    positions, velocities, accelerations = (np.array(values) for values in zip(*rows, strict=True))
-    velocities[-1] = accelerations[-1] = 0.0
-    return Trajectory.quintic(times, positions, velocities, accelerations)
 
 
 @dataclass(eq=False)
@@ -147,13 +121,7 @@ class CommandedPath:
         self._end_until(self.time)
         return state
 
-    def take(
-        self,
-        trajectory: Trajectory,
-        command: Command,
-        ahead: float,
-        braking: Braking,
-    ) -> None:
+    def take(self, trajectory: Trajectory, command: Command, ahead: float, braking: Braking) -> None:
         """Let a command's joints do this instead of what they do at present.
 
         A command that loses joints to it is over: the joints that it keeps slow down on their path and hold.
@@ -192,19 +160,35 @@ class CommandedPath:
         else:
             slower = self._slowed_down(command.columns, self.time, braking)
         command.end = self.time + slower.duration
-        self._replace([Part(command.columns, slower)])
+        self._replace([_Part(command.columns, slower)])
         return slower.duration
 
-    def _until(self, start: float, columns: NDArray[np.intp], following: Trajectory) -> Part:
+    def _until(self, start: float, columns: NDArray[np.intp], following: Trajectory) -> _Part:
         """What some joints do at present until a moment on the path [s], and a trajectory after it."""
         if start - self.time > SAME_TIME:
             following = self.trajectory.of_joints(columns).cut(self.time, start).then(following)
-        return Part(columns, following)
+        return _Part(columns, following)
 
     def _slowed_down(self, columns: NDArray[np.intp], start: float, braking: Braking) -> Trajectory:
-        return slowed_down(self.trajectory.of_joints(columns), start, self._limits[columns], braking)
+        """What some joints do from a moment on the path [s] until they stand still on it."""
+        trajectory = self.trajectory.of_joints(columns)
+        pace = PathPace()
+        pace.turn(0.0, fastest_ahead(trajectory, start, self._limits[columns], braking), braking)
+        steps = math.ceil(pace.remaining / _STEP)
+        here = trajectory.sample(start)
+        if steps == 0:
+            return Trajectory.hold(here.positions)
+        times = np.linspace(0.0, pace.remaining, steps + 1)
+        place = start
+        rows = [here]
+        for duration in np.diff(times):
+            place += pace.advance(float(duration))
+            rows.append(trajectory.sample(place).at_pace(pace.rate, pace.acceleration))
+        positions, velocities, accelerations = (np.array(values) for values in zip(*rows, strict=True))
+        velocities[-1] = accelerations[-1] = 0.0
+        return Trajectory.quintic(times, positions, velocities, accelerations)
 
-    def _replace(self, parts: list[Part]) -> None:
+    def _replace(self, parts: list[_Part]) -> None:
         """Go on with these, and beside them with what the other joints do at present."""
         others = np.setdiff1d(np.arange(len(self._limits)), np.concatenate([part.columns for part in parts]))
         if len(others):
@@ -214,8 +198,8 @@ class CommandedPath:
                 if end - self.time > SAME_TIME
                 else Trajectory.hold(present.positions[-1])
             )
-            parts = [*parts, Part(others, rest)]
-        self.trajectory = side_by_side(parts)
+            parts = [*parts, _Part(others, rest)]
+        self.trajectory = _side_by_side(parts)
         for command in self.commands:
             command.end -= self.time
         self.time = 0.0

@@ -88,11 +88,8 @@ class PathPace:
     def __init__(self) -> None:
         """Full pace."""
         self._target = 1.0
-        self._at = (
-            0.0,
-            1.0,
-            0.0,
-        )  # path time since the change began [s], its rate [1], its second derivative [1/s]
+        # Path time since the change began [s], its rate [1], its second derivative [1/s].
+        self._at = (0.0, 1.0, 0.0)
         self._change: ruckig.Trajectory | None = None
         self._elapsed = 0.0
 
@@ -132,11 +129,8 @@ class PathPace:
         needed = 0.5 * acceleration**2 / room if room > 0.0 else 0.0
         step = ruckig.InputParameter(1)
         step.control_interface = ruckig.ControlInterface.Velocity
-        step.current_position, step.current_velocity, step.current_acceleration = (
-            [0.0],
-            [rate],
-            [acceleration],
-        )
+        step.current_position, step.current_velocity = [0.0], [rate]
+        step.current_acceleration = [acceleration]
         step.target_velocity, step.target_acceleration = [target], [0.0]
         step.max_acceleration = [max(braking.deceleration / fastest, abs(acceleration))]
         step.max_jerk = [max(braking.jerk / fastest, needed)]

@@ -162,17 +162,6 @@ class Trajectory:
         stop = int(np.searchsorted(self.times, end, side="left"))
         return slice(min(max(first, 0), last), min(stop, last))
 
-    def first_segment(self) -> Trajectory:
-        """The part up to the second point; all of a trajectory of one point."""
-        two = slice(0, 2)
-        return Trajectory(
-            self.times[two],
-            self.positions[two],
-            self.velocities[two],
-            self.accelerations[two],
-            self.degrees[:1],
-        )
-
     def of_joints(self, columns: NDArray[np.intp]) -> Trajectory:
         """The same for some of the joints."""
         return Trajectory(

@@ -37,6 +37,12 @@ from teo_sim_driver.rules import DriverError, JointGroup, Refusal, TrajectoryErr
 _UNWATCHED = SubscriptionEventCallbacks(use_default_callbacks=False)
 
 
+def clock_time(node: Node) -> int:
+    """Time on a node's clock [ns]."""
+    time: int = node.get_clock().now().nanoseconds
+    return time
+
+
 class _Sender(NamedTuple):
     """Where a trajectory came from."""
 
@@ -88,7 +94,7 @@ class CommandInputs:
                 most_points=lambda: self._follower.rules.max_points,
                 receive=partial(self._on_goal, group),
                 refused=self._on_refused,
-                cancel=lambda command: self._follower.cancel(self._now(), command),
+                cancel=lambda command: self._follower.cancel(clock_time(self._node), command),
             )
 
     def take_checked(self, now: int) -> None:
@@ -113,10 +119,6 @@ class CommandInputs:
         self._intake.close()
         for action in self._actions.values():
             action.destroy()
-
-    def _now(self) -> int:
-        now: int = self._node.get_clock().now().nanoseconds
-        return now
 
     def _on_trajectory(self, group: JointGroup, message: bytes) -> None:
         sender = _Sender(group, None, frame_id(message))
@@ -209,10 +211,6 @@ class OperatorServices:
     def _stopped_again(self) -> str:
         raise DriverError("stopped_again", "expected it to come to rest, it was stopped again: re-arm it")
 
-    def _now(self) -> int:
-        now: int = self._node.get_clock().now().nanoseconds
-        return now
-
     def _answer(self, do: Callable[[], str], response: Trigger.Response) -> Trigger.Response:
         try:
             response.message = do()
@@ -224,7 +222,9 @@ class OperatorServices:
 
     def _stop(self) -> str:
         self._end_waiting(stopped=True)
-        remaining = self._follower.block(Mode.STOPPED, "stopped by the service `stop`", self._now())
+        remaining = self._follower.block(
+            Mode.STOPPED, "stopped by the service `stop`", clock_time(self._node)
+        )
         where = f"at rest in {remaining:.2f} s" if remaining > 0.0 else "at rest"
         return f"stopped: {where}; call `rearm` before the next trajectory"
 
@@ -233,11 +233,11 @@ class OperatorServices:
         return f"armed: {self._follower.mode}"
 
     def _pause(self) -> str:
-        remaining = self._follower.pause(self._now())
+        remaining = self._follower.pause(clock_time(self._node))
         return f"paused: at rest in {remaining:.2f} s"
 
     def _resume(self) -> str:
-        if not self._follower.resume(self._now()):
+        if not self._follower.resume(clock_time(self._node)):
             report = self._follower.report()
             instead = f": {report.reason}" if report.reason else ""
             if report.mode in (Mode.STOPPED, Mode.FAULT):
@@ -247,14 +247,14 @@ class OperatorServices:
 
     def _on_scaling(self, message: SpeedScalingFactor) -> None:
         try:
-            self._follower.scale(message.factor, self._now())
+            self._follower.scale(message.factor, clock_time(self._node))
         except DriverError as error:
             self._node.get_logger().warning(f"speed_scaling_input ignored: {error}")
 
     def _on_query(
         self, request: QueryTrajectoryState.Request, response: QueryTrajectoryState.Response
     ) -> QueryTrajectoryState.Response:
-        ahead = (request.time.sec * SECOND + request.time.nanosec - self._now()) / SECOND
+        ahead = (request.time.sec * SECOND + request.time.nanosec - clock_time(self._node)) / SECOND
         if ahead < 0.0:
             response.message = f"expected a time from now on, got one {-ahead:.3f} s ago"
             return response

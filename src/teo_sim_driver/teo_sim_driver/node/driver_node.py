@@ -23,7 +23,7 @@ from teo_sim_driver.follower_report import FollowerReport, Mode, RefusalLog, ass
 from teo_sim_driver.joint_follower import JointFollower
 from teo_sim_driver.motion.path_time import Braking
 from teo_sim_driver.motion.trajectory import MotionState
-from teo_sim_driver.node.command_inputs import CommandInputs, OperatorServices
+from teo_sim_driver.node.command_inputs import CommandInputs, OperatorServices, clock_time
 from teo_sim_driver.node.state_topics import (
     ControllerStatePublisher,
     DriverStatePublisher,
@@ -65,7 +65,7 @@ class DriverNode(LifecycleNode):
         self._humanoid = humanoid = load_humanoid(self.get_parameter("robot").value)
         limits, home = humanoid.limits(hand_drive=hand_drive), humanoid.hanging
         self._follower = JointFollower(limits=limits, start=home, period=1.0 / self._rate)
-        self._follower.block(Mode.INACTIVE, "not active", self._now())
+        self._follower.block(Mode.INACTIVE, "not active", clock_time(self))
         self._plant = FaultyPlant(_plant(self.get_parameter("plant").value, humanoid), limits, home)
         self._state_line = StateLine()
         self._asked = self._measured = MotionState.at_rest(home)
@@ -107,22 +107,18 @@ class DriverNode(LifecycleNode):
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Slow down and hold, and take nothing."""
-        self._follower.block(Mode.INACTIVE, "deactivated", self._now())
+        self._follower.block(Mode.INACTIVE, "deactivated", clock_time(self))
         return super().on_deactivate(state)
 
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Slow down and hold, and take nothing any more."""
-        self._follower.block(Mode.INACTIVE, "shut down", self._now())
+        self._follower.block(Mode.INACTIVE, "shut down", clock_time(self))
         return super().on_shutdown(state)
 
     def destroy_node(self) -> None:
         """End the thread that checks, then the node."""
         self._inputs.close()
         super().destroy_node()
-
-    def _now(self) -> int:
-        now: int = self.get_clock().now().nanoseconds
-        return now
 
     def _report(self, refusal: TrajectoryError) -> None:
         line = self._refusal_log.line(refusal, time.monotonic())

@@ -20,7 +20,7 @@ from rclpy.node import Node
 from rclpy.task import Future
 
 from teo_sim_driver.follower_report import FollowerReport, Mode, Source
-from teo_sim_driver.goal_monitor import GoalMonitor, ResultCode, Tolerances, result_code
+from teo_sim_driver.goal_monitor import GoalMonitor, ResultCode, result_code
 from teo_sim_driver.motion.commanded_path import Command
 from teo_sim_driver.motion.path_time import SECOND
 from teo_sim_driver.motion.trajectory import MotionState
@@ -43,7 +43,7 @@ class End(Enum):
     CANCELED = "canceled"
 
 
-class Outcome(NamedTuple):
+class _Outcome(NamedTuple):
     """What the client is told."""
 
     end: End
@@ -78,12 +78,9 @@ class Goal:
         self.handle = handle
         self.monitor = GoalMonitor(
             joints,
-            Tolerances.read(
-                joints,
-                request.path_tolerance,
-                request.goal_tolerance,
-                goal_time.sec + goal_time.nanosec / SECOND,
-            ),
+            request.path_tolerance,
+            request.goal_tolerance,
+            goal_time.sec + goal_time.nanosec / SECOND,
         )
         self.outcome = Future()
         self.command: Command | None = None
@@ -92,7 +89,7 @@ class Goal:
     def finish(self, end: End, code: ResultCode, sentence: str = "") -> None:
         """End it, unless it has ended."""
         if not self.outcome.done():
-            self.outcome.set_result(Outcome(end, code, sentence))
+            self.outcome.set_result(_Outcome(end, code, sentence))
 
     def refuse(self, refusal: TrajectoryError) -> None:
         """End it because its trajectory is not executed."""
@@ -214,7 +211,7 @@ class FollowAction:
             self._receive(goal)
         except TrajectoryError as refusal:
             self._refused(refusal)
-            outcome = Outcome(End.ABORTED, result_code(refusal.code), str(refusal))
+            outcome = _Outcome(End.ABORTED, result_code(refusal.code), str(refusal))
         else:
             outcome = await goal.outcome
         getattr(handle, outcome.end.value)()

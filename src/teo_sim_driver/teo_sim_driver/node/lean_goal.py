@@ -66,7 +66,7 @@ class LeanGoal(NamedTuple):
     """trajectory_msgs/JointTrajectory, serialized; empty if it has more points than are taken."""
 
 
-class LeanRequest(NamedTuple):
+class _LeanRequest(NamedTuple):
     """What rclpy's action server reads of a request."""
 
     goal_id: Any
@@ -83,7 +83,7 @@ def lean_action(most_points: Callable[[], int]) -> Any:
     request_type = FollowJointTrajectory.Impl.SendGoalService.Request
     as_objects = _ConvertToPy(_get_pointer(type(request_type)._CONVERT_TO_PY, None))
 
-    def convert(address: int) -> LeanRequest:
+    def convert(address: int) -> _LeanRequest:
         trajectory = _RequestHead.from_address(address).trajectory
         count = trajectory.points.size
         data = _serialized(trajectory) if count <= most_points() else b""
@@ -92,7 +92,7 @@ def lean_action(most_points: Callable[[], int]) -> Any:
             request = as_objects(address)
         finally:
             trajectory.points.size = count  # of what is freed afterwards
-        return LeanRequest(request.goal_id, LeanGoal(request.goal, count, data))
+        return _LeanRequest(request.goal_id, LeanGoal(request.goal, count, data))
 
     callback = _ConvertToPy(convert)
 

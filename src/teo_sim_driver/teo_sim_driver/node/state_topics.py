@@ -28,19 +28,9 @@ from teo_sim_driver.motion.trajectory import MotionState
 # How often the driver's state is published while the joints move [Hz]: often enough to show progress.
 _PROGRESS_RATE = 10
 
-_MODES = {
-    Mode.HOLDING: DriverState.MODE_HOLDING,
-    Mode.MOVING: DriverState.MODE_MOVING,
-    Mode.PAUSED: DriverState.MODE_PAUSED,
-    Mode.STOPPED: DriverState.MODE_STOPPED,
-    Mode.INACTIVE: DriverState.MODE_INACTIVE,
-    Mode.FAULT: DriverState.MODE_FAULT,
-}
-_SOURCES = {
-    Source.NONE: DriverState.SOURCE_NONE,
-    Source.TOPIC: DriverState.SOURCE_TOPIC,
-    Source.ACTION: DriverState.SOURCE_ACTION,
-}
+# The message's constants have the names of our own.
+_MODES = {mode: getattr(DriverState, f"MODE_{mode.name}") for mode in Mode}
+_SOURCES = {source: getattr(DriverState, f"SOURCE_{source.name}") for source in Source}
 
 
 def doubles(values: FloatArray) -> array[float]:
@@ -177,4 +167,4 @@ class HandPublisher:
             return
         self._last = hands
         setpoints = hand_setpoints(self._humanoid, hands)
-        self._publisher.publish(Float64MultiArray(layout=self._layout, data=array("d", setpoints.tobytes())))
+        self._publisher.publish(Float64MultiArray(layout=self._layout, data=doubles(setpoints)))
