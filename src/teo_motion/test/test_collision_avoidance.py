@@ -13,7 +13,7 @@ from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
 from teo_motion.collision.motion_clearance import RESOLUTION, MotionClearance
 from teo_motion.planner import Planner
-from teo_motion.sentence.plan import Samples
+from teo_motion.trajectory.driver_points import Samples
 from teo_motion.trajectory.ruckig_segment import State
 from teo_names import COMMANDED_JOINTS, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_signs.errors import PlanError
@@ -186,9 +186,7 @@ def test_an_elbow_behind_the_body_finds_its_way_to_rest(robot: Robot, lut: Lut) 
     begin = REST.copy()
     arm = [COMMANDED_JOINTS.index(name) for name in RIGHT_ARM]
     begin[arm] = np.radians([28.8, 1.6, 52.3, -97.5, -53.6, -53.7])
-    still = np.zeros(len(begin))
-    planner = Planner(lut, robot=robot)
-    plan = planner.plan_to_rest(State(position=begin, velocity=still, acceleration=still))
+    plan = Planner(lut, robot=robot).plan_to_rest(State.still(begin))
     poses = [dict(zip(plan.names, row.tolist(), strict=True)) for row in plan.positions[::2]]
     assert min(robot.clearance(robot.configuration(pose)).distance for pose in poses) > 0.0
     assert plan.duration < 4.0
