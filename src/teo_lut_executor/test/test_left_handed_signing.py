@@ -25,11 +25,6 @@ PALM = np.diag([1.0, -1.0, 1.0])
 
 
 @pytest.fixture(scope="module")
-def robot() -> Robot:
-    return Robot.load()
-
-
-@pytest.fixture(scope="module")
 def lut() -> Lut:
     return Lut.open(TABLE)
 
@@ -81,13 +76,6 @@ def test_every_sign_can_be_made_left_handed_within_the_limits_and_says_what_is_l
             off = max(off, 1000.0 * float(np.linalg.norm(got - wanted)))
         assert off <= other.quality.get("mirror_error_mm", 0.0) + 0.1, gloss
         assert off < 23.0, gloss
-
-
-def test_mirroring_twice_gives_the_sign_again(robot: Robot, lut: Lut) -> None:
-    sign = lut["COCHE"]
-    again = mirrored_sign(robot, mirrored_sign(robot, sign))
-    assert again.joints == sign.joints
-    np.testing.assert_allclose(again.knots, sign.knots, atol=1e-12)
 
 
 def test_what_is_beyond_the_other_arms_limit_is_brought_near_not_cut_off(robot: Robot, lut: Lut) -> None:

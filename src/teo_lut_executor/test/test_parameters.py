@@ -34,11 +34,6 @@ SENTENCES = (
 )
 
 
-@pytest.fixture(scope="module")
-def robot() -> Robot:
-    return Robot.load("teo")
-
-
 def planner(robot: Robot, values: dict[str, float]) -> Planner:
     settings = planner_settings_from(DEFAULTS | values)
     table = settings.table()
@@ -53,21 +48,21 @@ def assert_signs(planner: Planner) -> None:
         assert 0.5 < plan.stretch < 100.0
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("name", "value"), [(name, end) for name, ends in RANGES.items() if name not in GATES for end in ends]
-)
-def test_each_parameter_at_both_ends_of_its_range_signs(robot: Robot, name: str, value: float) -> None:
-    assert_signs(planner(robot, {name: value}))
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("end", [0, 1])
+def test_any_ends_of_the_ranges_of_parameters_sign(robot: Robot, seed: int, end: int) -> None:
+    """What is at its least for one `end` is at its most for the other."""
+    dice = random.Random(seed)
+    chosen = {name: ends[dice.randrange(2) ^ end] for name, ends in RANGES.items()}
+    assert_signs(planner(robot, {name: value for name, value in chosen.items() if name not in GATES}))
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", range(3))
 def test_any_parameters_within_their_ranges_sign(robot: Robot, seed: int) -> None:
     dice = random.Random(seed)
-    values = {
-        name: dice.choice((*ends, dice.uniform(*ends))) for name, ends in RANGES.items() if name not in GATES
-    }
-    assert_signs(planner(robot, values))
+    assert_signs(
+        planner(robot, {name: dice.uniform(*ends) for name, ends in RANGES.items() if name not in GATES})
+    )
 
 
 @pytest.mark.parametrize(("name", "code"), GATES.items())

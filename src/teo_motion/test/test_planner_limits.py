@@ -143,9 +143,8 @@ def test_no_limit_is_broken_by_random_signs_from_any_start_in_any_form(
     table = random_table(rng, robot=robot)
     tokens = random_tokens(rng, table, most=4)
     position = rng.uniform(limits.lower, limits.upper) if anywhere else humanoid.ready
-    still = np.zeros_like(position)
-    start = State(position=position, velocity=still, acceleration=still)
-    plan = Planner(table, limits=limits, max_duration=1e5).plan(tokens, start, form=form)
+    planner = Planner(table, limits=limits, max_duration=1e5)
+    plan = planner.plan(tokens, State.still(position), form=form)
     check(plan, tokens, table, limits, position, form)
 
 

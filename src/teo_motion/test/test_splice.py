@@ -13,13 +13,7 @@ from teo_motion.trajectory.joint_motion import JointMotion, motion_of, standing,
 from teo_motion.trajectory.ruckig_segment import Bounds, RuckigSolver, State
 from teo_motion.trajectory.splice import Splicer, StandPoint, position_at, shifted
 
-BOUNDS = Bounds(
-    lower=np.array([-0.5]),
-    upper=np.array([0.5]),
-    velocity=np.array([0.87]),
-    acceleration=np.array([6.5]),
-    jerk=np.array([105.0]),
-)
+BOUNDS = Bounds(*(np.array([limit]) for limit in (-0.5, 0.5, 0.87, 6.5, 105.0)))
 
 
 def there_and_back(angle: float = 0.3) -> JointMotion:

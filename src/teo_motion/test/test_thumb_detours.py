@@ -49,9 +49,8 @@ def straight(first: Array, last: Array, side: str) -> Route:
     """A route of two waypoints, at which all but one hand rests."""
     targets = np.stack([REST, REST])
     targets[:, columns(side)] = first, last
-    still = np.zeros(len(REST))
-    start = State(position=targets[0], velocity=still, acceleration=still)
-    return Route(targets=targets, nominal=np.ones(1), strokes=np.zeros(1, np.intp), spans=(), start=start)
+    start, strokes = State.still(targets[0]), np.zeros(1, np.intp)
+    return Route(targets=targets, nominal=np.ones(1), strokes=strokes, spans=(), start=start)
 
 
 def handshapes() -> Array:
