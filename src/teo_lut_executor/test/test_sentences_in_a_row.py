@@ -128,7 +128,6 @@ def test_a_sentence_that_is_refused_after_its_opening_brings_the_robot_back_to_r
 def test_a_latched_stop_ends_the_sentence_and_keeps_the_queue_until_it_is_rearmed(world: World) -> None:
     first, second = world.sign("A-N-A", utterance_id="one"), world.sign("N-A", utterance_id="two")
     world.run(3.0)
-    world._motions, world.velocities = [], np.zeros(REST.size)  # the driver brakes by itself
     world.driver_says(DriverMode.STOPPED)
     world.run(5.0)
     assert world.finished() == [(first, Outcome.CANCELED)]
@@ -410,3 +409,13 @@ def test_a_driver_that_takes_no_way_to_rest_is_told_so_and_left_alone(world: Wor
     assert world.finished() == [(ticket, Outcome.CANCELED)]
     assert any(status.code == "trajectory_refused" for status in world.statuses())
     assert world.refused <= 6
+
+
+def test_a_robot_that_was_stopped_goes_to_rest_when_it_is_rearmed(world: World) -> None:
+    world.sign("A-N-A")
+    world.run(3.0)
+    world.driver_says(DriverMode.STOPPED)
+    world.run(1.0)
+    world.driver_says(DriverMode.HOLDING)
+    world.run_until(lambda: world.activities()[-1] == Activity.IDLE)
+    np.testing.assert_allclose(world.positions, REST, atol=0.02)

@@ -10,7 +10,6 @@ import pytest
 
 from teo_description.robot import Robot
 from teo_motion.planner import DEFAULT_PERIOD, Planner
-from teo_motion.sentence.plan import Plan
 from teo_motion.sentence.signing_style import RestPosture, SigningStyle
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import State
@@ -19,6 +18,7 @@ from teo_signs.errors import PlanError
 from teo_signs.sign import Sign
 from teo_signs.tokens import Kind, Token, parse_printed
 
+LeastDistance = Callable[[np.ndarray], float]
 LIMITS = MotionLimits.of_robot()
 REST, STILL = LIMITS.humanoid.ready, np.zeros(28)
 
@@ -158,17 +158,9 @@ def test_a_sign_that_touches_the_robot_is_refused_by_name(
     assert refusal.value.code == "self_collision"
 
 
-def clearance(result: Plan, robot: Robot) -> float:
-    """Least distance at every second sample: an independent look along the whole motion."""
-    return min(
-        robot.clearance(robot.configuration(dict(zip(COMMANDED_JOINTS, row, strict=True)))).distance
-        for row in result.positions[::2]
-    )
-
-
 def test_the_nearness_that_is_reported_is_the_least_along_the_way(
-    table: Mapping[str, Sign], robot: Robot
+    table: Mapping[str, Sign], robot: Robot, least_distance: LeastDistance
 ) -> None:
     result = Planner(table, robot=robot).plan(parse_printed("CASA A-N CASA"))
     assert result.nearest is not None
-    assert result.nearest.distance == pytest.approx(clearance(result, robot), abs=0.005)
+    assert result.nearest.distance == pytest.approx(least_distance(result.positions[::2]), abs=0.005)
