@@ -8,12 +8,18 @@ import pytest
 
 from queue_world import World
 from teo_description.robot import Robot
+from teo_signs.look_up_table import Lut
 from teo_signs.sign import Sign
 
 
 @pytest.fixture(scope="session")
 def robot() -> Robot:
     return Robot.load()
+
+
+@pytest.fixture(scope="session")
+def lut() -> Lut:
+    return Lut.open()
 
 
 @pytest.fixture

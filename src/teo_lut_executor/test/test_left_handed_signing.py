@@ -13,20 +13,14 @@ from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
 from teo_names import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM, joint_limits
 from teo_signs.errors import PlanError
-from teo_signs.look_up_table import Lut, default_lut_directory
+from teo_signs.look_up_table import Lut
 from teo_signs.mirroring import MirroredSigns, mirrored_sign
 from teo_signs.sign import Sign
 from teo_signs.tokens import parse_printed
 
-TABLE = default_lut_directory()
 MIRROR = np.diag([1.0, -1.0, 1.0])
 # In a mirror the thumb's side of a hand changes: the y axis of a palm's frame, the x and z axes do not.
 PALM = np.diag([1.0, -1.0, 1.0])
-
-
-@pytest.fixture(scope="module")
-def lut() -> Lut:
-    return Lut.open(TABLE)
 
 
 def pose(plan: Plan, row: np.ndarray) -> dict[str, float]:

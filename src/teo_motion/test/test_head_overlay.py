@@ -61,9 +61,8 @@ def random_sentence(rng: np.random.Generator, table: Mapping[str, Sign]) -> list
 @settings(max_examples=20)
 @given(seed=st.integers(0, 2**32 - 1), form=st.sampled_from(FORMS), strength=st.sampled_from([0.3, 1.0]))
 def test_the_head_alone_shows_a_form_and_in_a_statement_nothing_does(
-    seed: int, form: SentenceForm, strength: float
+    lut: Lut, seed: int, form: SentenceForm, strength: float
 ) -> None:
-    lut = Lut.open()
     tokens = random_sentence(np.random.default_rng(seed), lut)
     plan, without = (
         Planner(lut, style=SigningStyle(head_motion=motion), least_standing="sketched").plan(

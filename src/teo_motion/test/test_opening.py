@@ -24,8 +24,8 @@ SENTENCES = ("HOLA", "TÚ AGUA BEBER", "A-N-A", "NO")
 
 
 @pytest.fixture(scope="module")
-def planner(robot: Robot) -> Planner:
-    return Planner(Lut.open(), robot=robot)
+def planner(robot: Robot, lut: Lut) -> Planner:
+    return Planner(lut, robot=robot)
 
 
 @pytest.mark.parametrize("text", SENTENCES)
