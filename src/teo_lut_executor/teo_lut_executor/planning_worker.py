@@ -16,8 +16,6 @@ from dataclasses import dataclass, field
 from multiprocessing.connection import Connection
 from pathlib import Path
 
-import numpy as np
-
 from teo_description.humanoid import DEFAULT_ROBOT, load_humanoid
 from teo_description.robot import Robot
 from teo_lut_executor.execution.interface import PlanWanted, ReturnWanted, Sentence
@@ -183,10 +181,7 @@ class _Worker:
         gloss = next(iter(self._tables[self._settings.language].glosses()), None)
         if gloss is None:
             return
-        ready = self._robot.humanoid.ready
-        still = np.zeros_like(ready)
-        rest = State(position=ready, velocity=still, acceleration=still)
-        sentence = Sentence(tokens=(Token(gloss=gloss),))
+        sentence, rest = Sentence(tokens=(Token(gloss=gloss),)), State.still(self._robot.humanoid.ready)
         wanted = PlanWanted(number=0, sentence=sentence, start=rest, opening=True)
         for _ in self.answers(wanted):
             pass
@@ -207,8 +202,7 @@ class _Worker:
                 if opened is not None:
                     opening, after = opened
                     yield Opened(number=wanted.number, plan=opening)
-                    position, velocity, acceleration = opening.at(after)
-                    start = State(position=position, velocity=velocity, acceleration=acceleration)
+                    start = opening.at(after)
                 sentence = wanted.sentence
                 plan = planner.plan(sentence.tokens, start, form=sentence.form, hold=wanted.hold)
         except (PlanError, LutError) as error:

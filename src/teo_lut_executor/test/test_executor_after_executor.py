@@ -53,6 +53,16 @@ def next_executor(graph: Graph, journal: Path, **values: object) -> Iterator[Exe
         node.destroy_node()
 
 
+def left_behind(path: Path, *sentences: tuple[str, float, int]) -> None:
+    """The journal of a killed executor: texts, how long ago each was accepted [s], how often it was begun."""
+    journal = Journal(path)
+    for ticket, (text, ago, attempts) in enumerate(sentences):
+        sentence = Sentence(tokens=parse_printed(text), utterance_id=text)
+        journal.accepted(ticket, sentence, time.time() - ago, attempts=attempts)
+    journal.begin()
+    journal.close()
+
+
 def signed(graph: Graph) -> list[str]:
     """The utterances of which signing began, in order, each once."""
     states = graph.robot.statuses
@@ -76,37 +86,24 @@ def test_a_second_executor_says_that_there_is_another_and_sends_nothing(graph: G
 
 @pytest.mark.slow
 def test_what_a_killed_executor_left_is_signed_or_named(graph: Graph, domain_id: int, tmp_path: Path) -> None:
-    def left(text: str, seconds_ago: float, attempts: int) -> None:
-        sentence = Sentence(tokens=parse_printed(text), utterance_id=text)
-        journal.accepted(len(text), sentence, time.time() - seconds_ago, attempts=attempts)
-
-    folder = tmp_path / "other"
-    journal = Journal(folder / f"domain{domain_id}.executor.jsonl")
-    left("NOD", 5.0, 0)
-    left("TURN", 5.0, 2)
-    left("A-N-A", 1e4, 0)
-    journal.begin()
-    journal.close()
+    path = tmp_path / f"domain{domain_id}.executor.jsonl"
+    left_behind(path, ("NOD", 5.0, 0), ("TURN", 5.0, 2), ("A-N-A", 1e4, 0))
     graph.node.destroy_node()
-    with next_executor(graph, folder):
+    with next_executor(graph, tmp_path):
         graph.rest(signed=1)
         assert graph.refused() == [("interrupted", "TURN"), ("expired", "A-N-A")]
         assert set(signed(graph)) == {"NOD"}
-    assert Journal(folder / f"domain{domain_id}.executor.jsonl").left == ()
+    assert Journal(path).left == ()
 
 
 @pytest.mark.slow
 def test_a_robot_that_a_killed_executor_left_half_way_goes_to_rest_though_nothing_is_signed_any_more(
     graph: Graph, domain_id: int, tmp_path: Path
 ) -> None:
-    folder = tmp_path / "other"
-    journal = Journal(folder / f"domain{domain_id}.executor.jsonl")
-    journal.accepted(1, Sentence(tokens=parse_printed("NOD"), utterance_id="NOD"), time.time() - 1e4)
-    journal.begin()
-    journal.close()
+    left_behind(tmp_path / f"domain{domain_id}.executor.jsonl", ("NOD", 1e4, 0))
     graph.node.destroy_node()
     graph.robot.stand(FrontalRightElbow=REST[COMMANDED_JOINTS.index("FrontalRightElbow")] - 0.3)
-    with next_executor(graph, folder):
+    with next_executor(graph, tmp_path):
         graph.spin_until(lambda: graph.refused() == [("expired", "NOD")])
         graph.spin_until(lambda: graph.robot.states()[-1] == ExecutorStatus.STATE_IDLE)
         np.testing.assert_allclose(graph.robot.positions, REST, atol=0.02)

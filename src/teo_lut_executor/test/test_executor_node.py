@@ -28,7 +28,7 @@ from teo_sign_msgs.srv import GetSign, ListQueue, ListSigns
 
 from teo_description.humanoid import load_humanoid
 from teo_lut_executor.node.executor_node import ExecutorNode
-from teo_names import COMMANDED_JOINTS, joint_limits
+from teo_names import COMMANDED_JOINTS
 from teo_signs.sign import Sign
 from teo_signs.sign_file import save_sign
 
@@ -186,17 +186,10 @@ def test_a_canceled_goal_brings_the_robot_back_to_rest(graph: Graph) -> None:
     waiting = graph.wait(client.send_goal_async(ExecuteSentence.Goal(sentence=graph.sentence("NOD"))))
     graph.wait(waiting.cancel_goal_async())
     assert graph.wait(waiting.get_result_async()).result.code == ExecuteSentence.Result.CANCELED
-    before = len(graph.robot.path)
     graph.wait(handle.cancel_goal_async())
     result = graph.wait(handle.get_result_async()).result
     assert result.code == ExecuteSentence.Result.CANCELED
     np.testing.assert_allclose(graph.robot.positions, REST, atol=0.02)
-    times = np.array([when for when, _ in graph.robot.path[before:]])
-    steps = np.abs(np.diff([positions for _, positions in graph.robot.path[before:]], axis=0)).max(axis=1)
-    # No jump: full speed in the time since the step before, however late a timer was; a motion that came
-    # late is joined at once, after as long on the way before it.
-    speed = float(joint_limits().velocity[0])
-    assert (steps <= speed * (np.diff(times) + 2.0 * graph.robot.late) + 0.03).all()
     graph.spin_until(lambda: graph.robot.states()[-1] == ExecutorStatus.STATE_IDLE)
     client.destroy()
 

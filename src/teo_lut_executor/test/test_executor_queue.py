@@ -11,7 +11,6 @@ from queue_world import World
 from teo_description.humanoid import load_humanoid
 from teo_lut_executor.execution.interface import (
     Activity,
-    Begun,
     DriverMode,
     DriverReport,
     Outcome,
@@ -26,18 +25,11 @@ REST = load_humanoid().ready
 
 
 @pytest.fixture
-def world(table: Mapping[str, Sign]) -> World:
-    return World(table)
-
-
-def test_sentences_are_signed_in_the_order_in_which_they_came(world: World) -> None:
-    tickets = [world.sign(text) for text in ("TÚ", "A", "N", "CASA")]
-    world.run_until(lambda: len(world.finished()) == 4)
-    assert world.finished() == [(ticket, Outcome.SUCCESS) for ticket in tickets]
-    signing = [status for status in world.statuses() if status.activity == Activity.SIGNING]
-    assert [status.queued for status in signing] == [3, 2, 1, 0]
-    assert [event.ticket for event in world.events if isinstance(event, Begun)] == tickets
-    assert world.activities()[-1] == Activity.IDLE
+def unheard(table: Mapping[str, Sign]) -> World:
+    """A world in which the robot has not been heard yet."""
+    world = World(table)
+    world.publishes_states = False
+    return world
 
 
 def test_too_many_sentences_are_refused_with_the_reason(table: Mapping[str, Sign]) -> None:
@@ -53,25 +45,23 @@ def test_too_many_sentences_are_refused_with_the_reason(table: Mapping[str, Sign
     assert [outcome for _, outcome in world.finished()[1:]] == [Outcome.SUCCESS] * 3
 
 
-def test_it_waits_for_joint_states_and_for_a_driver_and_says_so_once(world: World) -> None:
-    world.publishes_states = False
-    world.obstacle = "waiting for a driver to take joint_trajectory"
-    world.run(0.1)
-    world.sign("TÚ")
-    world.run(5.0)
-    assert set(world.activities()) == {Activity.WAITING} and len(world.statuses()) == 2
-    assert "joint_states of AxialNeck" in world.statuses()[-1].message
-    world.publishes_states = True
-    world.run(1.0)
-    assert "joint_trajectory" in world.statuses()[-1].message
-    assert world.sent == []
-    world.obstacle = ""
-    world.run_until(lambda: bool(world.finished()))
-    assert world.activities()[-2:] == [Activity.SIGNING, Activity.IDLE]
+def test_it_waits_for_joint_states_and_for_a_driver_and_says_so_once(unheard: World) -> None:
+    unheard.obstacle = "waiting for a driver to take joint_trajectory"
+    unheard.run(0.1)
+    unheard.sign("TÚ")
+    unheard.run(5.0)
+    assert set(unheard.activities()) == {Activity.WAITING} and len(unheard.statuses()) == 2
+    assert "joint_states of AxialNeck" in unheard.statuses()[-1].message
+    unheard.publishes_states = True
+    unheard.run(1.0)
+    assert "joint_trajectory" in unheard.statuses()[-1].message
+    assert unheard.sent == []
+    unheard.obstacle = ""
+    unheard.run_until(lambda: bool(unheard.finished()))
+    assert unheard.activities()[-2:] == [Activity.SIGNING, Activity.IDLE]
 
 
 def test_a_robot_that_does_not_move_is_noticed_while_signing(world: World) -> None:
-    world.run(0.1)
     world.follows = lambda _: False
     stuck = world.sign("TÚ", utterance_id="stuck")
     world.run_until(lambda: bool(world.finished()), most=6.0)
@@ -87,7 +77,6 @@ def test_a_robot_that_does_not_move_is_noticed_while_signing(world: World) -> No
 
 
 def test_a_robot_that_stops_following_is_stopped_and_the_sentence_signed_again(world: World) -> None:
-    world.run(0.1)
     first, second = world.sign("A-N-A-N"), world.sign("TÚ")
     world.run(2.5)
     elsewhere = world.planner.plan(parse_printed("CASA"))
@@ -101,7 +90,6 @@ def test_a_robot_that_stops_following_is_stopped_and_the_sentence_signed_again(w
 
 
 def test_a_silent_robot_is_told_within_a_second_and_the_sentence_signed_when_it_is_back(world: World) -> None:
-    world.run(0.1)
     first, second = world.sign("TÚ", utterance_id="first"), world.sign("A")
     world.run(2.0)
     world.publishes_states = False  # the driver was killed
@@ -141,7 +129,6 @@ def test_an_end_that_is_not_reached_is_reported_and_the_next_sentence_starts_fro
 
 
 def test_a_canceled_sentence_goes_back_to_rest_smoothly_and_the_next_begins(world: World) -> None:
-    world.run(0.1)
     ticket, following = world.sign("A-N-A-N-A-N"), world.sign("TÚ")
     world.run(5.0)
     world.cancel(ticket)
@@ -160,7 +147,6 @@ def test_a_canceled_sentence_goes_back_to_rest_smoothly_and_the_next_begins(worl
 
 
 def test_a_sentence_canceled_on_its_way_to_rest_just_ends(world: World) -> None:
-    world.run(0.1)
     ticket = world.sign("TÚ")
     world.run_until(lambda: bool(world.sent))
     world.run(world.sent[0].plan.duration - 0.5)
@@ -171,7 +157,6 @@ def test_a_sentence_canceled_on_its_way_to_rest_just_ends(world: World) -> None:
 
 
 def test_a_stop_that_the_driver_does_not_take_is_sent_again(world: World) -> None:
-    world.run(0.1)
     ticket = world.sign("A-N-A-N-A-N")
     world.run(3.0)
     world.run_until(lambda: bool(np.abs(world.velocities).max() > 0.5))
@@ -187,7 +172,6 @@ def test_a_stop_that_the_driver_does_not_take_is_sent_again(world: World) -> Non
 def test_a_driver_that_takes_no_stop_gets_time_between_them_and_is_then_told_to_stop_by_itself(
     world: World,
 ) -> None:
-    world.run(0.1)
     canceled, following = world.sign("A-N-A-N-A-N-A-N"), world.sign("TÚ")
     world.run_until(lambda: world.now > 103.0 and bool(np.abs(world.velocities).max() > 0.5))
     world.accepts, world.takes_stops = lambda _: False, False
@@ -203,7 +187,6 @@ def test_a_driver_that_takes_no_stop_gets_time_between_them_and_is_then_told_to_
 
 
 def test_progress_names_the_token_that_is_signed(world: World) -> None:
-    world.run(0.1)
     assert world.queue.progress(world.now) is None
     ticket = world.sign("TÚ A-N")
     seen = []
@@ -227,7 +210,6 @@ def test_progress_names_the_token_that_is_signed(world: World) -> None:
 
 
 def test_what_a_paused_robot_waits_for_is_told_as_its_driver_says_it(world: World) -> None:
-    world.run(0.1)
     report = DriverReport(mode=DriverMode.PAUSED, speed_scaling=0.0, message="the speed scaling factor is 0")
     world.take(world.queue.driver_state(report, world.now))
     assert world.statuses()[-1].message == report.message
@@ -238,25 +220,23 @@ def test_what_a_paused_robot_waits_for_is_told_as_its_driver_says_it(world: Worl
     [([np.nan] * 28, []), ([0.0] * 27, []), ([0.0] * 28, [0.0]), ([0.0] * 28, [np.inf] * 28)],
 )
 def test_a_joint_state_that_is_none_is_not_taken(
-    world: World, positions: list[float], velocities: list[float]
+    unheard: World, positions: list[float], velocities: list[float]
 ) -> None:
-    world.publishes_states = False
-    assert world.queue.joint_states(COMMANDED_JOINTS, positions, velocities, world.now)
-    world.sign("TÚ")
-    world.run(0.1)
-    assert world.activities() == [Activity.WAITING]
+    assert unheard.queue.joint_states(COMMANDED_JOINTS, positions, velocities, unheard.now)
+    unheard.sign("TÚ")
+    unheard.run(0.1)
+    assert unheard.activities() == [Activity.WAITING]
 
 
-def test_joint_states_may_come_from_several_publishers(world: World) -> None:
-    world.publishes_states = False
+def test_joint_states_may_come_from_several_publishers(unheard: World) -> None:
     half = len(COMMANDED_JOINTS) // 2
-    world.queue.joint_states(COMMANDED_JOINTS[:half], REST[:half].tolist(), [], world.now)
-    world.queue.joint_states(("LeftKnee",), [0.3], [], world.now)
-    world.sign("TÚ")
-    world.tick()
-    assert COMMANDED_JOINTS[half] in world.statuses()[-1].message
-    world.queue.joint_states(COMMANDED_JOINTS[half:], REST[half:].tolist(), [], world.now)
-    world.run_until(lambda: len(world.sent) == 1, most=1.0)
+    unheard.queue.joint_states(COMMANDED_JOINTS[:half], REST[:half].tolist(), [], unheard.now)
+    unheard.queue.joint_states(("LeftKnee",), [0.3], [], unheard.now)
+    unheard.sign("TÚ")
+    unheard.tick()
+    assert COMMANDED_JOINTS[half] in unheard.statuses()[-1].message
+    unheard.queue.joint_states(COMMANDED_JOINTS[half:], REST[half:].tolist(), [], unheard.now)
+    unheard.run_until(lambda: len(unheard.sent) == 1, most=1.0)
 
 
 def test_the_next_sentence_waits_for_a_robot_that_is_late_to_stand_still(world: World) -> None:
@@ -273,7 +253,6 @@ def test_the_next_sentence_waits_for_a_robot_that_is_late_to_stand_still(world: 
 
 
 def test_a_sentence_whose_plan_does_not_come_is_cleared_like_those_that_wait(world: World) -> None:
-    world.run(0.1)
     world.planning_time = 1e6
     tickets = [world.sign("TÚ"), world.sign("A")]
     world.run(1.0)

@@ -13,25 +13,14 @@ from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
 from teo_names import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM, joint_limits
 from teo_signs.errors import PlanError
-from teo_signs.look_up_table import Lut, default_lut_directory
+from teo_signs.look_up_table import Lut
 from teo_signs.mirroring import MirroredSigns, mirrored_sign
 from teo_signs.sign import Sign
 from teo_signs.tokens import parse_printed
 
-TABLE = default_lut_directory()
 MIRROR = np.diag([1.0, -1.0, 1.0])
 # In a mirror the thumb's side of a hand changes: the y axis of a palm's frame, the x and z axes do not.
 PALM = np.diag([1.0, -1.0, 1.0])
-
-
-@pytest.fixture(scope="module")
-def robot() -> Robot:
-    return Robot.load()
-
-
-@pytest.fixture(scope="module")
-def lut() -> Lut:
-    return Lut.open(TABLE)
 
 
 def pose(plan: Plan, row: np.ndarray) -> dict[str, float]:
@@ -81,13 +70,6 @@ def test_every_sign_can_be_made_left_handed_within_the_limits_and_says_what_is_l
             off = max(off, 1000.0 * float(np.linalg.norm(got - wanted)))
         assert off <= other.quality.get("mirror_error_mm", 0.0) + 0.1, gloss
         assert off < 23.0, gloss
-
-
-def test_mirroring_twice_gives_the_sign_again(robot: Robot, lut: Lut) -> None:
-    sign = lut["COCHE"]
-    again = mirrored_sign(robot, mirrored_sign(robot, sign))
-    assert again.joints == sign.joints
-    np.testing.assert_allclose(again.knots, sign.knots, atol=1e-12)
 
 
 def test_what_is_beyond_the_other_arms_limit_is_brought_near_not_cut_off(robot: Robot, lut: Lut) -> None:

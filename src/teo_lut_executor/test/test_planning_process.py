@@ -11,7 +11,6 @@ import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from teo_description.humanoid import load_humanoid
@@ -35,8 +34,8 @@ class Planning(PlanningProcess):
         self.until(lambda: self.ready)
 
     def want(self, number: int) -> None:
-        start = State(position=REST, velocity=np.zeros_like(REST), acceleration=np.zeros_like(REST))
-        self.ask(PlanWanted(number=number, sentence=Sentence(tokens=parse_printed("A")), start=start))
+        sentence = Sentence(tokens=parse_printed("A"))
+        self.ask(PlanWanted(number=number, sentence=sentence, start=State.still(REST)))
 
     def until(self, condition: Callable[[], bool]) -> None:
         deadline = time.monotonic() + 60.0

@@ -22,11 +22,7 @@ def assert_within_limits(world: World) -> None:
 
 
 @pytest.mark.parametrize("opening", [0.4, 0.413])
-def test_the_plan_that_takes_over_from_an_opening_keeps_every_limit(
-    table: Mapping[str, Sign], opening: float
-) -> None:
-    world = World(table)
-    world.run(0.2)
+def test_the_plan_that_takes_over_from_an_opening_keeps_every_limit(world: World, opening: float) -> None:
     world.opening_time, world.planning_time = opening, 0.31
     world.sign("CASA A-N")
     world.run_until(lambda: len(world.sent) == 2)
@@ -35,9 +31,7 @@ def test_the_plan_that_takes_over_from_an_opening_keeps_every_limit(
 
 
 @pytest.mark.parametrize("wait", [0.0, 5.613])
-def test_a_sentence_that_joins_another_keeps_every_limit(table: Mapping[str, Sign], wait: float) -> None:
-    world = World(table)
-    world.run(0.2)
+def test_a_sentence_that_joins_another_keeps_every_limit(world: World, wait: float) -> None:
     world.planning_time = 0.1
     world.sign("A-N")
     world.run(wait)
@@ -61,9 +55,7 @@ def test_a_newer_text_that_takes_over_keeps_every_limit(table: Mapping[str, Sign
 
 # Seconds after the sentence came: in its opening, just before its plan takes over, and while it signs.
 @pytest.mark.parametrize("moment", [0.2, 0.47, 1.31, 2.53])
-def test_a_stop_keeps_every_limit(table: Mapping[str, Sign], moment: float) -> None:
-    world = World(table)
-    world.run(0.2)
+def test_a_stop_keeps_every_limit(world: World, moment: float) -> None:
     world.opening_time, world.planning_time = 0.4, 0.31
     ticket = world.sign("CASA A-N")
     world.run(moment)
@@ -77,9 +69,7 @@ def test_a_stop_keeps_every_limit(table: Mapping[str, Sign], moment: float) -> N
 
 # Ticks after the plan was sent that takes over from the opening: the last of them find it in force.
 @pytest.mark.parametrize("ticks", range(0, 9, 2))
-def test_a_stop_about_a_take_over_keeps_every_limit(table: Mapping[str, Sign], ticks: int) -> None:
-    world = World(table)
-    world.run(0.2)
+def test_a_stop_about_a_take_over_keeps_every_limit(world: World, ticks: int) -> None:
     world.opening_time, world.planning_time = 0.4, 0.2
     ticket = world.sign("CASA A-N")
     world.run_until(lambda: len(world.sent) == 2)
@@ -92,9 +82,7 @@ def test_a_stop_about_a_take_over_keeps_every_limit(table: Mapping[str, Sign], t
     assert_within_limits(world)
 
 
-def test_a_stop_just_before_a_plan_begins_where_the_opening_ended(table: Mapping[str, Sign]) -> None:
-    world = World(table)
-    world.run(0.2)
+def test_a_stop_just_before_a_plan_begins_where_the_opening_ended(world: World) -> None:
     world.opening_time, world.planning_time = 0.4, 0.6  # too late to take over in motion
     ticket = world.sign("CASA A-N")
     world.run_until(lambda: len(world.sent) == 2)

@@ -13,6 +13,7 @@ from queue_world import TICK, World
 from teo_description.humanoid import load_humanoid
 from teo_lut_executor.execution.interface import (
     Activity,
+    Begun,
     DriverMode,
     Outcome,
     PlanWanted,
@@ -23,13 +24,6 @@ from teo_lut_executor.execution.interface import (
 from teo_signs.sign import Sign
 
 REST = load_humanoid().ready
-
-
-@pytest.fixture
-def world(table: Mapping[str, Sign]) -> World:
-    made = World(table)
-    made.run(0.2)
-    return made
 
 
 def assert_smooth(world: World) -> None:
@@ -45,6 +39,9 @@ def test_sentences_in_a_row_are_signed_with_the_arms_up(world: World) -> None:
     tickets = [world.sign(text) for text in ("A-N", "N-A", "A")]
     world.run_until(lambda: len(world.finished()) == 3)
     assert world.finished() == [(ticket, Outcome.SUCCESS) for ticket in tickets]
+    assert [event.ticket for event in world.events if isinstance(event, Begun)] == tickets
+    signing = [status for status in world.statuses() if status.activity == Activity.SIGNING]
+    assert [status.queued for status in signing] == [2, 1, 0]
     assert_smooth(world)
     raised = np.array([np.abs(positions - REST).max() > 0.1 for positions, _ in world.path])
     assert np.count_nonzero(np.diff(raised.astype(int)) == 1) == 1, "raised once for all three"
@@ -131,7 +128,6 @@ def test_a_sentence_that_is_refused_after_its_opening_brings_the_robot_back_to_r
 def test_a_latched_stop_ends_the_sentence_and_keeps_the_queue_until_it_is_rearmed(world: World) -> None:
     first, second = world.sign("A-N-A", utterance_id="one"), world.sign("N-A", utterance_id="two")
     world.run(3.0)
-    world._motions, world.velocities = [], np.zeros(REST.size)  # the driver brakes by itself
     world.driver_says(DriverMode.STOPPED)
     world.run(5.0)
     assert world.finished() == [(first, Outcome.CANCELED)]
@@ -209,8 +205,8 @@ def test_why_the_driver_refuses_is_told(world: World) -> None:
     assert refused.code == "trajectory_refused" and "[held_joint] no" in refused.message
 
 
-def test_a_robot_that_somebody_else_moves_is_not_called_at_rest(table: Mapping[str, Sign]) -> None:
-    world = World(table)
+def test_a_robot_that_somebody_else_moves_is_not_called_at_rest(world: World) -> None:
+    world.events.clear()
     world.velocities = np.full(REST.size, 0.2)
     world.run(1.0)
     assert set(world.activities()) == {Activity.WAITING}
@@ -237,7 +233,6 @@ def test_a_queue_that_is_deactivated_stops_the_robot_and_names_the_sentence(worl
 def test_at_any_speed_sentences_begin_at_once_and_go_on_from_where_the_robot_is(
     world: World, pace: float
 ) -> None:
-    world.run(0.2)
     world.driver_says(DriverMode.HOLDING, speed_scaling=pace)
     world.opening_time, world.planning_time = 0.4, 0.2
     world.run(0.5)
@@ -307,7 +302,6 @@ def test_what_is_late_and_clocks_that_are_set_cost_no_sentence(
 @pytest.mark.parametrize("seed", range(6))
 def test_a_speed_that_is_changed_whenever_costs_no_sentence(world: World, seed: int) -> None:
     draw = np.random.default_rng(seed)
-    world.run(0.2)
     world.opening_time, world.planning_time = 0.4, 0.2
     tickets = [world.sign(text) for text in ("TÚ", "A-N", "TÚ")]
     for _ in range(20):
@@ -326,7 +320,6 @@ def test_a_robot_that_is_not_heard_for_a_while_but_goes_on_is_stopped_before_it_
     world: World, seed: int
 ) -> None:
     draw = np.random.default_rng(seed)
-    world.run(0.2)
     tickets = [world.sign(text) for text in ("A-N-A", "TÚ")]
     world.run(float(draw.uniform(0.3, 6.0)))
     world.publishes_states = False
@@ -363,7 +356,6 @@ def test_a_sentence_that_is_canceled_in_a_pause_does_not_go_on_when_the_pause_en
 def test_a_sentence_that_is_canceled_while_its_motion_is_on_its_way_does_not_begin_later(
     world: World, wait: float
 ) -> None:
-    world.run(0.2)
     world.delay = 0.4
     ticket = world.sign("A-N-A-N")
     world.run_until(lambda: bool(world.sent))
@@ -381,7 +373,6 @@ def test_a_sentence_that_is_canceled_while_its_motion_is_on_its_way_does_not_beg
 @pytest.mark.parametrize("wait", [0.02, 0.4, 0.8, 2.0])
 def test_a_stop_ends_an_interrupted_sentence_that_is_to_be_signed_again(world: World, wait: float) -> None:
     world.planning_time = 0.5
-    world.run(0.2)
     interrupted, waiting = world.sign("A-N-A-N"), world.sign("TÚ")
     world.run(3.0)
     world.publishes_states = False
@@ -423,7 +414,6 @@ def test_a_driver_that_takes_no_way_to_rest_is_told_so_and_left_alone(world: Wor
 def test_a_robot_that_was_stopped_goes_to_rest_when_it_is_rearmed(world: World) -> None:
     world.sign("A-N-A")
     world.run(3.0)
-    world._motions, world.velocities = [], np.zeros(REST.size)
     world.driver_says(DriverMode.STOPPED)
     world.run(1.0)
     world.driver_says(DriverMode.HOLDING)

@@ -24,9 +24,9 @@ import numpy as np
 from teo_description.humanoid import Humanoid
 from teo_motion.collision.motion_clearance import MotionClearance
 from teo_motion.neck_paths import GestureWindow, Leaning, NeckPath, Times, nod_paths, shake_paths
-from teo_motion.sentence.plan import HeadGesture, NearestApproach, Plan, Samples
+from teo_motion.sentence.plan import HeadGesture, NearestApproach, Plan
 from teo_motion.sentence.sentence_form import Gesture, GestureKind
-from teo_motion.trajectory.driver_points import driver_points
+from teo_motion.trajectory.driver_points import Samples, driver_points
 from teo_motion.trajectory.joint_motion import JointMotion
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.splice import Splicer
@@ -183,21 +183,13 @@ class HeadOverlay:
 
     def _sampled(self, plan: Plan, motions: tuple[JointMotion, ...]) -> Samples:
         columns = [neck.column for neck in self._necks.values()]
-        found = driver_points([motions[column] for column in columns], plan.times)
-        arrays = []
-        for before, changed in (
-            (plan.positions, found.positions),
-            (plan.velocities, found.velocities),
-            (plan.accelerations, found.accelerations),
-        ):
-            array = before.copy()
-            array[:-1, columns] = changed[:-1]  # at the end the plan is at rest to the digit
-            arrays.append(array)
+        necks = driver_points([motions[column] for column in columns], plan.times)
+        samples = Samples(*(values.copy() for values in plan.samples))
+        for values, changed in zip(samples[1:], necks[1:], strict=True):
+            values[:-1, columns] = changed[:-1]  # at the end the plan is at rest to the digit
         # No further than the rounding that a splice allows.
-        np.clip(arrays[0], self._limits.lower, self._limits.upper, out=arrays[0])
-        for array in arrays:
-            array.setflags(write=False)
-        return Samples(times=plan.times, positions=arrays[0], velocities=arrays[1], accelerations=arrays[2])
+        np.clip(samples.positions, self._limits.lower, self._limits.upper, out=samples.positions)
+        return samples.frozen()
 
 
 class _NeckJoint(NamedTuple):

@@ -258,14 +258,9 @@ class Planner:
     def _checked(self, start: State | None) -> State:
         """The state to plan from, moved onto the limits where it is a little beyond them."""
         joints = len(self.limits.names)
-        still = np.zeros(joints)
         if start is None:
-            return State(position=self._rest, velocity=still, acceleration=still)
-        for name, values in (
-            ("position", start.position),
-            ("velocity", start.velocity),
-            ("acceleration", start.acceleration),
-        ):
+            return State.still(self._rest)
+        for name, values in start._asdict().items():
             if values.shape != (joints,):
                 message = f"start {name}: expected {joints} numbers, got shape {values.shape}"
                 raise PlanError("bad_start", message)

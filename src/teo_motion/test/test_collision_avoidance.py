@@ -13,19 +13,20 @@ from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
 from teo_motion.collision.motion_clearance import RESOLUTION, MotionClearance
 from teo_motion.planner import Planner
-from teo_motion.sentence.plan import Samples
+from teo_motion.trajectory.driver_points import Samples
 from teo_motion.trajectory.ruckig_segment import State
 from teo_names import COMMANDED_JOINTS, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_signs.errors import PlanError
 from teo_signs.look_up_table import Lut
 from teo_signs.sign import Sign
-from teo_signs.tokens import Token
+from teo_signs.tokens import Token, parse_printed
 
 BOTH = RIGHT_ARM + RIGHT_HAND + LEFT_ARM + LEFT_HAND
 HANGING, REST = load_humanoid().hanging, load_humanoid().ready
 OPEN = np.radians([0.0, -25.0, 7.0, 7.0, 7.0, 7.0])
 
 MakeSign = Callable[..., Sign]
+LeastDistance = Callable[[np.ndarray], float]
 
 
 def arms(lut: Lut, gloss: str, knot: int) -> tuple[np.ndarray, np.ndarray]:
@@ -42,7 +43,7 @@ def mirrored_arm(arm: np.ndarray) -> np.ndarray:
 
 def without_looking(signs: dict[str, Sign], glosses: str, robot: Robot) -> float:
     """How near parts come if nobody looks [m]."""
-    plan = Planner(signs).plan([Token(gloss=gloss) for gloss in glosses.split()])
+    plan = Planner(signs).plan(parse_printed(glosses))
     return MotionClearance(robot).nearest(plan.samples).distance
 
 
@@ -55,7 +56,7 @@ def test_an_idle_left_hand_in_the_way_hangs_first(make_sign: MakeSign, lut: Lut,
     }
     sentence = "TWO ONE TWO"
     assert without_looking(signs, sentence, robot) < -0.005
-    plan = Planner(signs, robot=robot).plan([Token(gloss=gloss) for gloss in sentence.split()])
+    plan = Planner(signs, robot=robot).plan(parse_printed(sentence))
     assert MotionClearance(robot).nearest(plan.samples).distance >= 0.0
     one = plan.timings[1]
     position, _, _ = plan.at(one.start + one.duration / 2.0)
@@ -75,7 +76,7 @@ def test_two_hands_pass_each_other(make_sign: MakeSign, lut: Lut, robot: Robot) 
     }
     sentence = "OVER UNDER OVER"
     assert without_looking(signs, sentence, robot) < -0.005
-    plan = Planner(signs, robot=robot).plan([Token(gloss=gloss) for gloss in sentence.split()])
+    plan = Planner(signs, robot=robot).plan(parse_printed(sentence))
     assert MotionClearance(robot).nearest(plan.samples).distance >= 0.0
     for timing in plan.timings:
         sign = signs[timing.token.gloss]
@@ -107,7 +108,7 @@ def test_nearly_every_random_sentence_of_the_table_has_a_way(lut: Lut, robot: Ro
 
 
 def test_a_sign_that_is_swung_into_stands_still_where_its_hands_would_meet(lut: Lut, robot: Robot) -> None:
-    tokens = [Token(gloss="TIERRA"), Token(gloss="MESA")]
+    tokens = parse_printed("TIERRA MESA")
     planner = Planner(lut, robot=robot)
     plan = planner.plan(tokens)
     assert plan.nearest is not None and plan.nearest.distance >= 0.002
@@ -116,7 +117,7 @@ def test_a_sign_that_is_swung_into_stands_still_where_its_hands_would_meet(lut: 
     assert plan.timings[1].duration < freely.timings[1].duration + 0.5
 
 
-def test_no_overlap_between_two_looks_stays_unseen(robot: Robot) -> None:
+def test_no_overlap_between_two_looks_stays_unseen(robot: Robot, least_distance: LeastDistance) -> None:
     """On straight ways of the arms from anywhere to anywhere, beside a look at every hundredth."""
     random, limits = np.random.default_rng(3), joint_limits(COMMANDED_JOINTS)
     arms = [COMMANDED_JOINTS.index(name) for name in (*LEFT_ARM, *RIGHT_ARM)]
@@ -127,8 +128,7 @@ def test_no_overlap_between_two_looks_stays_unseen(robot: Robot) -> None:
         ends[:, arms] = random.uniform(limits.lower[arms], limits.upper[arms], (2, len(arms)))
         samples = Samples(times=np.array([0.0, 1.0]), positions=ends, velocities=still, accelerations=still)
         rows = ends[0] + np.linspace(0.0, 1.0, 101)[:, None] * (ends[1] - ends[0])
-        named = [dict(zip(COMMANDED_JOINTS, row.tolist(), strict=True)) for row in rows]
-        least = min(robot.clearance(robot.configuration(pose)).distance for pose in named)
+        least = least_distance(rows)
         found = looking.nearest(samples).distance
         if least < 0.0:
             overlaps += 1
@@ -142,7 +142,7 @@ def test_no_overlap_between_two_looks_stays_unseen(robot: Robot) -> None:
 def test_hands_that_part_to_pass_stay_before_the_body(glosses: str, lut: Lut, robot: Robot) -> None:
     signs = dict(lut)
     assert without_looking(signs, glosses, robot) < 0.0
-    plan = Planner(signs, robot=robot).plan([Token(gloss=gloss) for gloss in glosses.split()])
+    plan = Planner(signs, robot=robot).plan(parse_printed(glosses))
     wrists = [
         robot.placement(robot.configuration(dict(zip(plan.names, plan.at(time)[0], strict=True))), wrist)
         for time in np.arange(0.0, plan.duration, 0.1)
@@ -156,39 +156,38 @@ def test_a_way_on_which_a_hand_passes_through_another_shape_is_led_around_as_wel
     lut: Lut, robot: Robot
 ) -> None:
     # A thumb passes through another shape half way, where one hand would be in the other.
-    plan = Planner(dict(lut), robot=robot).plan([Token(gloss="SISTEMA"), Token(gloss="SALSA")])
+    plan = Planner(dict(lut), robot=robot).plan(parse_printed("SISTEMA SALSA"))
     assert MotionClearance(robot).nearest(plan.samples).distance >= 0.0
 
 
 def test_where_no_way_leads_between_two_signs_others_keep_their_size(robot: Robot, lut: Lut) -> None:
     """Made smaller, two of the first three find no way from one to the other; the last three stay small."""
     planner = Planner(lut, robot=robot)
-    text = ("MI", "ADAPTACIÓN", "ATENCIÓN", "ECHAR_DE_MENOS", "GRAVE", "NEGOCIAR")
-    together = planner.plan([Token(gloss=gloss) for gloss in text]).timings
-    alone = [planner.plan([Token(gloss=gloss)]).timings[0].duration for gloss in text]
-    for timing, duration in list(zip(together, alone, strict=True))[3:]:
-        assert timing.duration == pytest.approx(duration, abs=0.2)
+    tokens = parse_printed("MI ADAPTACIÓN ATENCIÓN ECHAR_DE_MENOS GRAVE NEGOCIAR")
+    together = planner.plan(tokens).timings
+    for token, timing in list(zip(tokens, together, strict=True))[3:]:
+        (alone,) = planner.plan([token]).timings
+        assert timing.duration == pytest.approx(alone.duration, abs=0.2)
 
 
-def test_hands_deep_in_each_other_find_their_way_apart(robot: Robot, lut: Lut) -> None:
+def test_hands_deep_in_each_other_find_their_way_apart(
+    robot: Robot, lut: Lut, least_distance: LeastDistance
+) -> None:
     """No posture is clear on the straight ways to and from both."""
-    tokens = [Token(gloss=gloss) for gloss in ("PLASTILINA", "HIJA", "MARCAR")]
-    planner = Planner(lut, robot=robot)
+    tokens, planner = parse_printed("PLASTILINA HIJA MARCAR"), Planner(lut, robot=robot)
     plan = planner.plan(tokens)
-    poses = [dict(zip(plan.names, row.tolist(), strict=True)) for row in plan.positions[::2]]
-    assert min(robot.clearance(robot.configuration(pose)).distance for pose in poses) > 0.0
+    assert least_distance(plan.positions[::2]) > 0.0
     again = planner.plan(tokens)
     assert np.array_equal(again.positions, plan.positions), "what is found by chance is found again"
 
 
-def test_an_elbow_behind_the_body_finds_its_way_to_rest(robot: Robot, lut: Lut) -> None:
+def test_an_elbow_behind_the_body_finds_its_way_to_rest(
+    robot: Robot, lut: Lut, least_distance: LeastDistance
+) -> None:
     """Its hand is before the belly, a finger's breadth off it."""
     begin = REST.copy()
     arm = [COMMANDED_JOINTS.index(name) for name in RIGHT_ARM]
     begin[arm] = np.radians([28.8, 1.6, 52.3, -97.5, -53.6, -53.7])
-    still = np.zeros(len(begin))
-    planner = Planner(lut, robot=robot)
-    plan = planner.plan_to_rest(State(position=begin, velocity=still, acceleration=still))
-    poses = [dict(zip(plan.names, row.tolist(), strict=True)) for row in plan.positions[::2]]
-    assert min(robot.clearance(robot.configuration(pose)).distance for pose in poses) > 0.0
+    plan = Planner(lut, robot=robot).plan_to_rest(State.still(begin))
+    assert least_distance(plan.positions[::2]) > 0.0
     assert plan.duration < 4.0

@@ -20,7 +20,7 @@ from teo_signs.tokens import Token, parse_printed
 STYLE = SigningStyle()
 LIMITS = MotionLimits.of_robot()
 HANGING, REST = LIMITS.humanoid.hanging, LIMITS.humanoid.ready
-START = State(position=REST, velocity=np.zeros(28), acceleration=np.zeros(28))
+START = State.still(REST)
 ELBOW = COMMANDED_JOINTS.index("FrontalRightElbow")
 RIGHT_ARM_COLUMNS = [COMMANDED_JOINTS.index(name) for name in COMMANDED_JOINTS if "Right" in name]
 LEFT_COLUMNS = [COMMANDED_JOINTS.index(name) for name in COMMANDED_JOINTS if "Left" in name]

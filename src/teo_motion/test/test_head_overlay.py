@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import numpy as np
 import pytest
@@ -18,12 +18,12 @@ from teo_motion.sentence.plan import Plan, TokenTiming
 from teo_motion.sentence.sentence_form import STATEMENT, GestureKind, SentenceForm, SentenceType
 from teo_motion.sentence.signing_style import SigningStyle
 from teo_motion.trajectory.limits import MotionLimits
-from teo_motion.trajectory.ruckig_segment import State
 from teo_motion.trajectory.stopping import stop
 from teo_signs.look_up_table import Lut
 from teo_signs.sign import Sign
 from teo_signs.tokens import Kind, Token, parse_printed
 
+LeastDistance = Callable[[np.ndarray], float]
 REST = load_humanoid().ready
 
 LIMITS = MotionLimits.of_robot()
@@ -61,9 +61,8 @@ def random_sentence(rng: np.random.Generator, table: Mapping[str, Sign]) -> list
 @settings(max_examples=20)
 @given(seed=st.integers(0, 2**32 - 1), form=st.sampled_from(FORMS), strength=st.sampled_from([0.3, 1.0]))
 def test_the_head_alone_shows_a_form_and_in_a_statement_nothing_does(
-    seed: int, form: SentenceForm, strength: float
+    lut: Lut, seed: int, form: SentenceForm, strength: float
 ) -> None:
-    lut = Lut.open()
     tokens = random_sentence(np.random.default_rng(seed), lut)
     plan, without = (
         Planner(lut, style=SigningStyle(head_motion=motion), least_standing="sketched").plan(
@@ -75,11 +74,7 @@ def test_the_head_alone_shows_a_form_and_in_a_statement_nothing_does(
     same = slice(None) if form == STATEMENT else HANDS
     np.testing.assert_array_equal(plan.times, without.times)
     assert (plan.timings, plan.stretch) == (without.timings, without.stretch)
-    for now, before in (
-        (plan.positions, without.positions),
-        (plan.velocities, without.velocities),
-        (plan.accelerations, without.accelerations),
-    ):
+    for now, before in zip(plan.samples[1:], without.samples[1:], strict=True):
         np.testing.assert_array_equal(now[:, same], before[:, same])
 
 
@@ -169,29 +164,29 @@ def test_half_the_strength_is_half_the_way(lut: Lut) -> None:
     assert np.degrees(np.abs(plan.positions[:, YAW]).max()) == pytest.approx(6.0, abs=0.05)
 
 
-def test_a_head_that_would_touch_a_hand_stays_as_the_sign_has_it(lut: Lut, robot: Robot) -> None:
+def test_a_head_that_would_touch_a_hand_stays_as_the_sign_has_it(
+    lut: Lut, robot: Robot, least_distance: LeastDistance
+) -> None:
     # The hand of PENSAR is so near to the forehead that a head bowed by 9 deg would touch it.
     planner, tokens = Planner(lut, robot=robot), parse_printed("PENSAR CASA")
     plan, without = (planner.plan(tokens, form=form) for form in (YES_NO, STATEMENT))
     assert plan.nearest is not None and plan.nearest.distance >= 0.0
     # Seen by somebody else: every point, not only those that the planner looks at.
     first, casa = plan.timings
-    for position in plan.positions[plan.times <= casa.start][::2]:
-        named = dict(zip(plan.names, position.tolist(), strict=True))
-        assert robot.clearance(robot.configuration(named)).distance >= 0.0
+    assert least_distance(plan.positions[plan.times <= casa.start][::2]) >= 0.0
     np.testing.assert_allclose(during(plan, first), during(without, without.timings[0]), atol=1e-6)
     assert during(plan, casa)[:, 1].max() == pytest.approx(9.0)
 
 
 @pytest.mark.parametrize("text", ["MADRE ENTENDER NO", "TÚ DELGADO"])
-def test_signs_at_the_face_stay_clear_of_the_head(lut: Lut, robot: Robot, text: str) -> None:
+def test_signs_at_the_face_stay_clear_of_the_head(
+    lut: Lut, robot: Robot, least_distance: LeastDistance, text: str
+) -> None:
     for form in (YES_NO, NEGATED):
         plan = Planner(lut, robot=robot).plan(parse_printed(text), form=form)
         assert plan.nearest is not None and plan.nearest.distance >= 0.0
-        near = plan.nearest
-        point, _, _ = plan.at(near.time)
-        found = robot.clearance(robot.configuration(dict(zip(plan.names, point.tolist(), strict=True))))
-        assert found.distance == pytest.approx(near.distance, abs=1e-3)  # points leave the motion by 0.5 mrad
+        found = least_distance(plan.at(plan.nearest.time).position[None])
+        assert found == pytest.approx(plan.nearest.distance, abs=1e-3)  # points leave the motion by 0.5 mrad
 
 
 @pytest.mark.parametrize("share", [0.3, 0.5, 0.7])
@@ -199,9 +194,9 @@ def test_a_robot_that_is_stopped_in_a_gesture_finds_its_way_to_rest(lut: Lut, sh
     planner = Planner(lut)
     form = SentenceForm(type=SentenceType.YES_NO_QUESTION, negated=True)
     plan = planner.plan(parse_printed("HOY VENIR NO"), form=form)
-    position, velocity, acceleration = plan.at(share * plan.duration)
-    assert np.abs(position[HEAD]).max() > 0.01
-    end, _ = stop(State(position=position, velocity=velocity, acceleration=acceleration), LIMITS)
+    moving = plan.at(share * plan.duration)
+    assert np.abs(moving.position[HEAD]).max() > 0.01
+    end, _ = stop(moving, LIMITS)
     back = planner.plan_to_rest(end)
     assert back.head == ()
-    np.testing.assert_allclose(back.at(back.duration)[0], REST, atol=1e-6)
+    np.testing.assert_allclose(back.at(back.duration).position, REST, atol=1e-6)

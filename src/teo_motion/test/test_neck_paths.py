@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from teo_motion.neck_paths import GestureWindow, Leaning, hold_paths, nod_paths, shake_paths
-from teo_motion.trajectory.joint_motion import JointMotion, JointMotionBuilder
+from teo_motion.trajectory.joint_motion import JointMotion, motion_of
+from teo_motion.trajectory.joint_motion import standing as stand
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.splice import Splicer
 
@@ -21,12 +22,10 @@ def least_time(way: float) -> float:
     return float(LIMITS.least_times(np.array([way]), [PITCH])[0])
 
 
-def standing(*positions: float) -> JointMotion:
-    """At each position for 10 s [deg]; it jumps from one to the next."""
-    builder = JointMotionBuilder()
-    for index, position in enumerate(positions):
-        builder.hold(10.0 * index, math.radians(position))
-    return builder.build(10.0 * len(positions))
+def standing(positions: dict[float, float], until: float = 20.0) -> JointMotion:
+    """At each position [deg] from a time on [s]; it jumps from one to the next."""
+    parts = [(time, stand(np.array(math.radians(position)))) for time, position in positions.items()]
+    return motion_of(parts, until)
 
 
 def window(
@@ -45,7 +44,7 @@ def window(
         end=end,
         comes_from_sign=joined[0],
         goes_on_into_sign=joined[1],
-        motion=standing(0.0, 0.0, 0.0) if motion is None else motion,
+        motion=standing({0.0: 0.0}, 30.0) if motion is None else motion,
         least_time=least_time,
     )
 
@@ -57,13 +56,9 @@ def test_a_shake_without_room_for_both_sides_is_none() -> None:
 @pytest.mark.parametrize("end", [6.0, 7.0, 7.5, 8.0, 8.5])
 @pytest.mark.parametrize("behind", [-12.0, 12.0])
 def test_a_shake_goes_on_into_a_sign_that_shakes(end: float, behind: float) -> None:
-    motion = standing(0.0, behind)
-    paths = list(
-        shake_paths(
-            1.0,
-            window(10.0 - end, 10.0 - end + 1.0, 10.0, 10.0, motion=motion)._replace(goes_on_into_sign=True),
-        )
-    )
+    motion = standing({0.0: 0.0, 10.0: behind})
+    into = window(10.0 - end, 10.0 - end + 1.0, 10.0, 10.0, motion=motion, joined=(False, True))
+    paths = list(shake_paths(1.0, into))
     assert paths
     for path in paths:
         assert path.begin >= 10.0 - end - 1e-9 and path.end == pytest.approx(10.0)
@@ -74,10 +69,8 @@ def test_a_shake_goes_on_into_a_sign_that_shakes(end: float, behind: float) -> N
 @pytest.mark.parametrize("behind", [-12.0, 12.0])
 @pytest.mark.parametrize("length", [1.5, 2.2, 2.9, 3.6])
 def test_a_shake_between_two_signs_that_shake_alternates(before: float, behind: float, length: float) -> None:
-    builder = JointMotionBuilder()
-    for start, position in ((0.0, before), (5.0, 0.0), (5.0 + length, behind)):
-        builder.hold(start, math.radians(position))
-    between = window(5.0, 5.0, 5.0 + length, 5.0 + length, motion=builder.build(20.0), joined=(True, True))
+    motion = standing({0.0: before, 5.0: 0.0, 5.0 + length: behind})
+    between = window(5.0, 5.0, 5.0 + length, 5.0 + length, motion=motion, joined=(True, True))
     for path in shake_paths(1.0, between):
         turns = [before, *(math.degrees(point.position) for point in path.points), behind]
         assert all(one * other < 0.0 for one, other in pairwise(turns))
@@ -109,9 +102,7 @@ def leaning() -> Leaning:
 @pytest.fixture
 def motion() -> JointMotion:
     """A head that stands still for 20 s."""
-    builder = JointMotionBuilder()
-    builder.hold(0.0, 0.0)
-    return builder.build(20.0)
+    return standing({0.0: 0.0})
 
 
 def degrees(motion: JointMotion, *times: float) -> list[float]:

@@ -19,13 +19,13 @@ from teo_signs.tokens import parse_printed
 
 REST = load_humanoid().ready
 
-STILL = State(position=REST, velocity=np.zeros(REST.size), acceleration=np.zeros(REST.size))
+STILL = State.still(REST)
 SENTENCES = ("HOLA", "TÚ AGUA BEBER", "A-N-A", "NO")
 
 
 @pytest.fixture(scope="module")
-def planner(robot: Robot) -> Planner:
-    return Planner(Lut.open(), robot=robot)
+def planner(robot: Robot, lut: Lut) -> Planner:
+    return Planner(lut, robot=robot)
 
 
 @pytest.mark.parametrize("text", SENTENCES)
@@ -46,9 +46,8 @@ def test_an_opening_is_safe_by_itself_and_the_whole_plan_takes_as_long(
     np.testing.assert_allclose(velocities[-1], 0.0, atol=1e-9)
     assert MotionClearance(robot).nearest(opening.samples).distance > 0.0
 
-    position, velocity, acceleration = opening.at(until)
-    assert np.abs(velocity).max() > 0.1, "the plan takes over from a robot in motion"
-    moving = State(position=position, velocity=velocity, acceleration=acceleration)
+    moving = opening.at(until)
+    assert np.abs(moving.velocity).max() > 0.1, "the plan takes over from a robot in motion"
     going_on, whole = planner.plan(tokens, moving), planner.plan(tokens)
     assert until + going_on.duration < whole.duration + 0.1
 
@@ -57,8 +56,7 @@ def test_no_joint_stops_beyond_its_place_in_the_first_sign(robot: Robot) -> None
     """The arms need longer to stop than the neck, which has less far to go."""
     turn = make_sign("TURN", [[0.1, 0.05], [0.05, 0.0]], [0.0, 0.2], joints=("AxialNeck", "FrontalNeck"))
     planner = Planner({"TURN": turn}, robot=robot)
-    still = np.zeros(REST.size)
-    hanging = State(position=load_humanoid().hanging, velocity=still, acceleration=still)
+    hanging = State.still(load_humanoid().hanging)
     opened = planner.plan_opening(parse_printed("TURN"), hanging, lasting=0.4)
     assert opened is not None
     neck = opened[0].positions[:, opened[0].names.index("AxialNeck")]
@@ -75,10 +73,8 @@ def test_no_opening_is_made_for_a_robot_that_is_at_the_first_sign_already(
 ) -> None:
     tokens = parse_printed("A")
     plan = planner.plan(tokens)
-    there = plan.at(plan.timings[0].start + plan.timings[0].duration)[0] - away
-    still = np.zeros(REST.size)
-    state = State(position=there, velocity=still, acceleration=still)
-    assert planner.plan_opening(tokens, state, lasting=0.4) is None
+    there = plan.at(plan.timings[0].start + plan.timings[0].duration).position - away
+    assert planner.plan_opening(tokens, State.still(there), lasting=0.4) is None
 
 
 def test_a_sentence_that_cannot_be_looked_up_is_refused_at_once(planner: Planner) -> None:

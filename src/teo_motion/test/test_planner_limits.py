@@ -143,9 +143,8 @@ def test_no_limit_is_broken_by_random_signs_from_any_start_in_any_form(
     table = random_table(rng, robot=robot)
     tokens = random_tokens(rng, table, most=4)
     position = rng.uniform(limits.lower, limits.upper) if anywhere else humanoid.ready
-    still = np.zeros_like(position)
-    start = State(position=position, velocity=still, acceleration=still)
-    plan = Planner(table, limits=limits, max_duration=1e5).plan(tokens, start, form=form)
+    planner = Planner(table, limits=limits, max_duration=1e5)
+    plan = planner.plan(tokens, State.still(position), form=form)
     check(plan, tokens, table, limits, position, form)
 
 
@@ -182,27 +181,26 @@ def test_no_limit_is_broken_by_the_tables_of_the_languages(robot: str, language:
         check(planner.plan(tokens, form=form), tokens, table, limits, form=form)
 
 
-def test_no_limit_is_broken_by_the_inflected_forms_of_the_package() -> None:
-    table, limits = Lut.open(), MotionLimits.of_robot()
-    inflected = [(gloss, inflection) for gloss in table for inflection in table[gloss].forms]
+def test_no_limit_is_broken_by_the_inflected_forms_of_the_package(lut: Lut) -> None:
+    limits = MotionLimits.of_robot()
+    inflected = [(gloss, inflection) for gloss in lut for inflection in lut[gloss].forms]
     assert len(inflected) > 30
-    planner = Planner(table, max_duration=1e4)
+    planner = Planner(lut, max_duration=1e4)
     for first in range(0, len(inflected), 6):
         tokens = [
             Token(gloss=gloss, inflection=inflection, word_index=index)
             for index, (gloss, inflection) in enumerate(inflected[first : first + 6])
         ]
-        check(planner.plan(tokens), tokens, table, limits)
+        check(planner.plan(tokens), tokens, lut, limits)
 
 
-def test_fingers_of_a_slower_drive_are_waited_for() -> None:
-    table = dict(Lut.open(default_lut_directory()).items())
+def test_fingers_of_a_slower_drive_are_waited_for(lut: Lut) -> None:
     tokens = [Token(gloss=letter, kind=Kind.LETTER) for letter in "AB"]
     finger = COMMANDED_JOINTS.index("RightIndexFinger")
     # A finger without load at 968:1 with the slowest motors: 13 rpm, 4.5 mm, 78 deg for 20 mm.
     most = math.radians(13.0 / 60.0 * math.tau * 4.5 * 78.0 / 20.0)
-    usual = Planner(table).plan(tokens)
-    slow = Planner(table, limits=MotionLimits.of_robot(hand_drive="spool_1000")).plan(tokens)
+    usual = Planner(lut).plan(tokens)
+    slow = Planner(lut, limits=MotionLimits.of_robot(hand_drive="spool_1000")).plan(tokens)
     assert np.abs(usual.velocities[:, finger]).max() > most
     assert np.abs(slow.velocities[:, finger]).max() <= most
     assert slow.duration > usual.duration + 1.0

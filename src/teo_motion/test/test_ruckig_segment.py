@@ -19,19 +19,13 @@ def one(value: float) -> np.ndarray:
 
 
 def bounds(velocity: float = 0.87, acceleration: float = 5.0, jerk: float = 52.0) -> Bounds:
-    return Bounds(
-        lower=one(-10.0),
-        upper=one(10.0),
-        velocity=one(velocity),
-        acceleration=one(acceleration),
-        jerk=one(jerk),
-    )
+    return Bounds(*map(one, (-10.0, 10.0, velocity, acceleration, jerk)))
 
 
 def moved(
     start: tuple[float, float, float], end: tuple[float, float, float], duration: float
 ) -> RuckigSegment | None:
-    states = [State(position=one(p), velocity=one(v), acceleration=one(a)) for p, v, a in (start, end)]
+    states = [State(*map(one, numbers)) for numbers in (start, end)]
     return RuckigSolver(1).segment(*states, bounds(), duration=duration)
 
 
@@ -62,7 +56,7 @@ def test_the_range_of_a_move_is_exact(
 def test_the_solver_is_given_numbers_of_its_joints_and_limits_above_0(
     joints: int, speed: float, most: float
 ) -> None:
-    start, end = (State(position=one(0.0), velocity=one(v), acceleration=one(0.0)) for v in (speed, 0.0))
+    start, end = (State(one(0.0), one(v), one(0.0)) for v in (speed, 0.0))
     with pytest.raises(PlanError) as refusal:
         RuckigSolver(joints).segment(start, end, bounds(velocity=most), duration=1.0)
     assert refusal.value.code == "bad_state"
@@ -98,13 +92,3 @@ def test_dense_knots_of_a_smooth_motion_are_passed_as_it_does() -> None:
     middle = slice(8, -8)
     np.testing.assert_allclose(velocities[middle, 0], 3.0 * np.cos(3.0 * times[middle]), atol=0.01)
     np.testing.assert_allclose(accelerations[middle, 0], -9.0 * np.sin(3.0 * times[middle]), atol=0.3)
-
-
-def test_a_brake_slows_a_knot() -> None:
-    times = np.array([0.0, 1.0, 2.0])
-    positions = np.array([[0.0], [1.0], [2.0]])
-    free, _ = waypoint_states(times, positions, np.ones((3, 1)), swing=0.0)
-    braked, _ = waypoint_states(times, positions, np.array([[1.0], [0.1], [1.0]]), swing=0.0)
-    stopped, acceleration = waypoint_states(times, positions, np.array([[1.0], [0.0], [1.0]]), swing=0.0)
-    assert 0.0 < braked[1, 0] < free[1, 0]
-    assert stopped[1, 0] == acceleration[1, 0] == 0.0

@@ -11,7 +11,6 @@ from teo_motion.sentence.sentence_form import (
     head_gestures,
     printed_form,
     without_marks,
-    words_of,
 )
 from teo_sign_languages import HeadGrammar, load_language
 from teo_signs.tokens import Kind, Token, parse_printed
@@ -19,37 +18,31 @@ from teo_signs.tokens import Kind, Token, parse_printed
 SPANISH, AMERICAN = load_language("ssp").head, load_language("ase").head
 
 
-def test_the_letters_of_a_word_belong_together() -> None:
-    words = words_of(parse_printed("TÚ A-N-A _ L-U-Z 26"), SPANISH)
-    assert [(word.first, word.last, word.text) for word in words] == [
-        (0, 0, "TÚ"),
-        (1, 3, "ANA"),
-        (4, 4, ""),
-        (5, 7, "LUZ"),
-        (8, 8, "26"),
-    ]
-
-
 def test_a_spelled_gloss_with_a_pause_inside_is_one_word() -> None:
     pause = Token(gloss="", kind=Kind.PAUSE, word_index=3)
     letters = [Token(gloss=letter, kind=Kind.LETTER, word_index=3) for letter in "NOHAY"]
-    (word,) = words_of([*letters[:2], pause, *letters[2:]], SPANISH)
-    assert word.text == "NO_HAY" and word.negates
+    assert printed_form("", [*letters[:2], pause, *letters[2:]], SPANISH).negated
 
 
 @pytest.mark.parametrize(
-    ("glosses", "asks", "negates"),
+    ("grammar", "glosses", "asks", "negates"),
     [
-        ("QUÉ POR_QUÉ CUÁNTOS A-D-O-N-D-E C-U-A-L", True, False),
-        ("NO NO_HAY TODAVÍA_NO JAMÁS N-U-N-C-A NADA", False, True),
+        (SPANISH, "QUÉ POR_QUÉ CUÁNTOS A-D-O-N-D-E C-U-A-L", True, False),
+        (SPANISH, "NO NO_HAY TODAVÍA_NO JAMÁS N-U-N-C-A NADA", False, True),
         # Conjunctions, and words that hold one that asks or negates.
-        ("CUANDO PORQUE COMER Q NOCHE BUENO DE_NADA SÍ NOSOTROS", False, False),
+        (SPANISH, "CUANDO PORQUE COMER Q NOCHE BUENO DE_NADA SÍ NOSOTROS", False, False),
+        (AMERICAN, "WHAT W-H-O", True, False),
+        (AMERICAN, "DONT_KNOW", False, True),
+        (AMERICAN, "NADA QUÉ", False, False),
     ],
 )
-def test_words_ask_negate_or_do_neither(glosses: str, asks: bool, negates: bool) -> None:
+def test_words_ask_negate_or_do_neither(
+    grammar: HeadGrammar, glosses: str, asks: bool, negates: bool
+) -> None:
+    asked = SentenceType.WH_QUESTION if asks else SentenceType.YES_NO_QUESTION
     for gloss in glosses.split():
-        (word,) = words_of(parse_printed(gloss), SPANISH)
-        assert (word.asks, word.negates) == (asks, negates), gloss
+        form = printed_form(f"{gloss}?", parse_printed(gloss), grammar)
+        assert form == SentenceForm(type=asked, negated=negates), gloss
 
 
 @pytest.mark.parametrize(
@@ -66,17 +59,6 @@ def test_words_ask_negate_or_do_neither(glosses: str, asks: bool, negates: bool)
 def test_the_printed_form_tells_type_and_negation(text: str, type_: SentenceType, negated: bool) -> None:
     tokens = parse_printed(without_marks(text))
     assert printed_form(text, tokens) == SentenceForm(type=type_, negated=negated)
-
-
-def test_the_words_that_tell_are_the_languages() -> None:
-    words = words_of(parse_printed("WHAT W-H-O DONT_KNOW NADA QUÉ"), AMERICAN)
-    assert [(word.asks, word.negates) for word in words] == [
-        (True, False),
-        (True, False),
-        (False, True),
-        (False, False),
-        (False, False),
-    ]
 
 
 NO, NEGATED_QUESTION = (

@@ -97,8 +97,10 @@ def test_fingers_that_fold_one_after_the_other_move_together_for_a_while(
 
 
 @pytest.mark.parametrize("gloss", ["NEVERA", "A_VECES", "LÁPIZ_DE_COLOR"])
-def test_a_smaller_sign_has_no_thumb_in_a_finger_where_it_begins_and_ends(robot: Robot, gloss: str) -> None:
-    smaller = fitted(robot, Lut.open()[gloss])
+def test_a_smaller_sign_has_no_thumb_in_a_finger_where_it_begins_and_ends(
+    robot: Robot, lut: Lut, gloss: str
+) -> None:
+    smaller = fitted(robot, lut[gloss])
     hand = [smaller.joints.index(name) for name in RIGHT_HAND]
     for knot in (0, -1):
         assert thumb_gap(robot, smaller.knots[knot, hand], "Right") >= -TOUCH - 3e-4
@@ -114,9 +116,8 @@ def test_what_is_repeated_four_times_is_repeated_twice(robot: Robot, make_sign: 
 
 
 @pytest.mark.slow
-def test_contacts_of_the_table_are_kept(robot: Robot) -> None:
+def test_contacts_of_the_table_are_kept(robot: Robot, lut: Lut) -> None:
     """Where a word touches the body or the other hand, it does so when it is smaller."""
-    lut = Lut.open()
     contacts = lost = 0
     for gloss in sorted(lut)[::6]:
         sign = lut[gloss]

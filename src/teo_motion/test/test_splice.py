@@ -2,36 +2,29 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from teo_motion.trajectory.joint_motion import JointMotion, JointMotionBuilder, take
+from teo_motion.trajectory.joint_motion import JointMotion, motion_of, standing, take
 from teo_motion.trajectory.ruckig_segment import Bounds, RuckigSolver, State
 from teo_motion.trajectory.splice import Splicer, StandPoint, position_at, shifted
 
-BOUNDS = Bounds(
-    lower=np.array([-0.5]),
-    upper=np.array([0.5]),
-    velocity=np.array([0.87]),
-    acceleration=np.array([6.5]),
-    jerk=np.array([105.0]),
-)
+BOUNDS = Bounds(*(np.array([limit]) for limit in (-0.5, 0.5, 0.87, 6.5, 105.0)))
 
 
 def there_and_back(angle: float = 0.3) -> JointMotion:
     """At 0 for 1 s, to an angle in 1 s, there for 1 s, back in 1 s, and 1 s more at 0."""
-    builder, solver = JointMotionBuilder(), RuckigSolver(1)
-    zero = np.zeros(1)
-    at = [State(position=np.array([turn]), velocity=zero, acceleration=zero) for turn in (0.0, angle)]
-    for start, first, second in ((1.0, 0, 1), (3.0, 1, 0)):
-        builder.hold(start - 1.0, float(at[first].position[0]))
-        segment = solver.segment(at[first], at[second], BOUNDS, duration=1.0)
+    ends = [State.still(np.array([turn])) for turn in (0.0, angle, 0.0)]
+    parts = [(2.0 * index, standing(end.position[0])) for index, end in enumerate(ends)]
+    for start, (first, second) in zip((1.0, 3.0), pairwise(ends), strict=True):
+        segment = RuckigSolver(1).segment(first, second, BOUNDS, duration=1.0)
         assert segment is not None
-        builder.add(start, take(segment.pieces, 0))
-    builder.hold(4.0, 0.0)
-    return builder.build(5.0)
+        parts.append((start, take(segment.pieces, 0)))
+    return motion_of(sorted(parts, key=lambda part: part[0]), 5.0)
 
 
 def jumps(motion: JointMotion) -> float:

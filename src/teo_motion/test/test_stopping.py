@@ -13,6 +13,7 @@ from teo_motion.trajectory.ruckig_segment import State
 from teo_motion.trajectory.stopping import stop
 
 ROBOTS = {name: MotionLimits.of_robot(load_humanoid(name)) for name in ("teo", "gr1t2")}
+EACH_ROBOT = pytest.mark.parametrize("limits", ROBOTS.values(), ids=ROBOTS)
 
 
 def quintic(time: float, start: tuple[float, float, float], end: float, looks: int = 200) -> np.ndarray:
@@ -26,32 +27,30 @@ def quintic(time: float, start: tuple[float, float, float], end: float, looks: i
     return np.array([curve.deriv(order)(s) / time**order for order in range(4)])
 
 
-def right_elbow(limits: MotionLimits) -> int:
-    """Column of a joint that is in the middle of its range in the ready posture."""
-    return limits.names.index(limits.humanoid.elbows[0])
+def right_elbow(limits: MotionLimits, share: float, push: float = 0.0) -> tuple[int, State]:
+    """A joint that is in the middle of its range in the ready posture, at shares of what it may have there.
 
-
-def fastest(limits: MotionLimits, joint: int) -> float:
-    """Speed of a joint in the ready posture that it may have there [rad/s].
-
-    A joint of TEO may have any; a faster one only that from which it comes to rest within its range, half of
-    what the square root of acceleration times way gives, as jerk and late states take their part.
+    A joint of TEO may have any speed; a faster one only that from which it comes to rest within its range,
+    half of what the square root of acceleration times way gives, as jerk and late states take their part.
     """
-    at = limits.humanoid.ready[joint]
+    joint = limits.names.index(limits.humanoid.elbows[0])
+    state = State(limits.humanoid.ready, np.zeros(len(limits.names)), np.zeros(len(limits.names)))
+    at = state.position[joint]
     room = min(at - limits.lower[joint], limits.upper[joint] - at)
-    return float(min(limits.velocity[joint], 0.5 * np.sqrt(limits.acceleration[joint] * room)))
+    fastest = min(limits.velocity[joint], 0.5 * np.sqrt(limits.acceleration[joint] * room))
+    state.velocity[joint], state.acceleration[joint] = share * fastest, push * limits.acceleration[joint]
+    return joint, state
 
 
-@pytest.mark.parametrize("limits", ROBOTS.values(), ids=ROBOTS)
+@EACH_ROBOT
 def test_what_stands_still_stays(limits: MotionLimits) -> None:
     rest = limits.humanoid.ready
-    still = np.zeros_like(rest)
-    end, time = stop(State(position=rest, velocity=still, acceleration=still), limits)
+    end, time = stop(State.still(rest), limits)
     np.testing.assert_array_equal(end.position, rest)
     assert 0.1 <= time < 0.2
 
 
-@pytest.mark.parametrize("limits", ROBOTS.values(), ids=ROBOTS)
+@EACH_ROBOT
 @settings(max_examples=200)
 @given(
     share=st.floats(-1.0, 1.0),
@@ -60,37 +59,31 @@ def test_what_stands_still_stays(limits: MotionLimits) -> None:
 def test_a_robot_a_little_before_or_behind_stops_without_going_faster(
     limits: MotionLimits, share: float, late: float
 ) -> None:
-    joint, position = right_elbow(limits), limits.humanoid.ready
-    velocity = np.zeros_like(position)
-    velocity[joint] = share * fastest(limits, joint)
-    start = State(position=position, velocity=velocity, acceleration=np.zeros_like(position))
+    joint, start = right_elbow(limits, share)
     end, time = stop(start, limits)
     assert (end.velocity == 0.0).all() and (end.acceleration == 0.0).all()
     # The robot has gone on for so long when the command arrives, or is not yet where it said.
-    here = position[joint] + late * velocity[joint]
-    speeds = quintic(time, (here, velocity[joint], 0.0), end.position[joint])[1]
+    here = start.position[joint] + late * start.velocity[joint]
+    speeds = quintic(time, (here, start.velocity[joint], 0.0), end.position[joint])[1]
     assert np.abs(speeds).max() <= limits.velocity[joint] * 1.001
 
 
-@pytest.mark.parametrize("limits", ROBOTS.values(), ids=ROBOTS)
+@EACH_ROBOT
 @settings(max_examples=200)
 @given(share=st.floats(-1.0, 1.0), push=st.floats(-1.0, 1.0), late=st.floats(0.005, 0.035))
 def test_a_robot_that_speeds_up_or_slows_down_stops_within_its_acceleration_and_jerk(
     limits: MotionLimits, share: float, push: float, late: float
 ) -> None:
-    joint, position = right_elbow(limits), limits.humanoid.ready
-    velocity, acceleration = np.zeros_like(position), np.zeros_like(position)
-    velocity[joint] = share * fastest(limits, joint)
-    acceleration[joint] = push * limits.acceleration[joint]
-    end, time = stop(State(position=position, velocity=velocity, acceleration=acceleration), limits)
-    here = position[joint] + late * velocity[joint]
-    _, _, pushed, jerked = quintic(time, (here, velocity[joint], acceleration[joint]), end.position[joint])
+    joint, start = right_elbow(limits, share, push)
+    end, time = stop(start, limits)
+    position, velocity, acceleration = (values[joint] for values in start)
+    here = position + late * velocity
+    _, _, pushed, jerked = quintic(time, (here, velocity, acceleration), end.position[joint])
     assert np.abs(pushed).max() <= limits.acceleration[joint] * 1.001
     assert np.abs(jerked).max() <= limits.jerk[joint] * 1.001
 
 
-@pytest.mark.parametrize("limits", ROBOTS.values(), ids=ROBOTS)
+@EACH_ROBOT
 def test_a_stop_stays_within_the_limits(limits: MotionLimits) -> None:
-    position, velocity = limits.lower + 0.01, -0.9 * limits.velocity
-    end, _ = stop(State(position=position, velocity=velocity, acceleration=np.zeros_like(position)), limits)
+    end, _ = stop(State.still(limits.lower + 0.01)._replace(velocity=-0.9 * limits.velocity), limits)
     assert (end.position >= limits.lower).all()

@@ -20,7 +20,7 @@ from teo_motion.sentence.composition import Route
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import State
 from teo_names import COMMANDED_JOINTS, LEFT_HAND, RIGHT_HAND
-from teo_signs.look_up_table import Lut, default_lut_directory
+from teo_signs.look_up_table import Lut
 from teo_signs.tokens import parse_printed
 
 REST = load_humanoid().ready
@@ -49,26 +49,26 @@ def straight(first: Array, last: Array, side: str) -> Route:
     """A route of two waypoints, at which all but one hand rests."""
     targets = np.stack([REST, REST])
     targets[:, columns(side)] = first, last
-    still = np.zeros(len(REST))
-    start = State(position=targets[0], velocity=still, acceleration=still)
-    return Route(targets=targets, nominal=np.ones(1), strokes=np.zeros(1, np.intp), spans=(), start=start)
+    start, strokes = State.still(targets[0]), np.zeros(1, np.intp)
+    return Route(targets=targets, nominal=np.ones(1), strokes=strokes, spans=(), start=start)
 
 
-def handshapes() -> Array:
+def handshapes(lut: Lut) -> Array:
     """Those with which the package's signs begin and end. Shape (n, 6)."""
-    table = Lut.open(default_lut_directory())
     of_hand = [
         (sign, [sign.joints.index(name) for name in RIGHT_HAND])
-        for sign in table.values()
+        for sign in lut.values()
         if set(RIGHT_HAND) <= set(sign.joints)
     ]
     ends = [sign.knots[knot, hand] for sign, hand in of_hand for knot in (0, -1)]
     return np.unique(np.round(ends, 6), axis=0)
 
 
-def test_thumbs_that_would_pass_through_a_finger_go_another_way_and_others_go_straight() -> None:
-    robot, limits = Robot.load(), MotionLimits.of_robot()
-    shapes, table, dice = handshapes(), hand_table(robot), np.random.default_rng(5)
+def test_thumbs_that_would_pass_through_a_finger_go_another_way_and_others_go_straight(
+    robot: Robot, lut: Lut
+) -> None:
+    limits, table = MotionLimits.of_robot(), hand_table(robot)
+    shapes, dice = handshapes(lut), np.random.default_rng(5)
     through = 0
     for number in range(PAIRS):
         side = ("Right", "Left")[number % 2]
@@ -96,9 +96,8 @@ def test_thumbs_that_would_pass_through_a_finger_go_another_way_and_others_go_st
         "SERPIENTE CONTENER MUCHO RENUNCIAR",
     ],
 )
-def test_in_a_sentence_no_thumb_is_in_a_finger_at_any_time(sentence: str) -> None:
-    robot = Robot.load()
-    plan = Planner(Lut.open(default_lut_directory()), robot=robot).plan(parse_printed(sentence))
+def test_in_a_sentence_no_thumb_is_in_a_finger_at_any_time(robot: Robot, lut: Lut, sentence: str) -> None:
+    plan = Planner(lut, robot=robot).plan(parse_printed(sentence))
     hands = plan.positions[:, columns("Right")]
     moved = hands[1:][(np.diff(hands, axis=0) != 0.0).any(axis=1)][::2]
     assert min(thumb_gap(robot, hand, "Right") for hand in moved) > -TOUCH - _OFF

@@ -10,8 +10,6 @@ from typing import Annotated, NoReturn
 import typer
 from rich.console import Console
 
-from teo_description.humanoid import DEFAULT_ROBOT
-from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import Lut
 from teo_signs.sign import Sign
@@ -36,7 +34,7 @@ def fail(error: LutError) -> NoReturn:
     raise typer.Exit(1) from error
 
 
-def open_table(directory: Path | None, robot: str = DEFAULT_ROBOT, language: str = DEFAULT_LANGUAGE) -> Lut:
+def open_table(directory: Path | None, robot: str, language: str) -> Lut:
     """Open the table that --lut, --robot and --language name, or end with its error."""
     try:
         return Lut.open(directory, language=language, robot=robot)

@@ -13,7 +13,7 @@ from teo_description.pictures.rendering import MotionVideo, camera_named, film_s
 from teo_motion.sentence.plan import Plan
 from teo_signs.tokens import Token
 
-FRAMES_PER_SECOND = 25
+_FRAMES_PER_SECOND = 25
 
 _CAMERA = "front"
 _STRIP_SIZE = (400, 400)
@@ -22,10 +22,10 @@ _PAUSE = "(pause)"
 
 def frames(plan: Plan) -> range:
     """Numbers of the frames of a plan's film; the last shows the robot at rest again."""
-    return range(math.ceil(plan.duration * FRAMES_PER_SECOND) + 1)
+    return range(math.ceil(plan.duration * _FRAMES_PER_SECOND) + 1)
 
 
-def write_film(path: Path, plan: Plan, humanoid: Humanoid, numbers: Iterable[int] | None = None) -> None:
+def write_film(path: Path, plan: Plan, humanoid: Humanoid, numbers: Iterable[int]) -> None:
     """Write a film of a plan, with the gloss of each sign at its foot.
 
     Args:
@@ -34,9 +34,9 @@ def write_film(path: Path, plan: Plan, humanoid: Humanoid, numbers: Iterable[int
         humanoid: Who signs it.
         numbers: `frames` of the plan, wrapped if the caller shows progress.
     """
-    with MotionVideo(path, frames_per_second=FRAMES_PER_SECOND) as film:
-        for number in frames(plan) if numbers is None else numbers:
-            time = number / FRAMES_PER_SECOND
+    with MotionVideo(path, frames_per_second=_FRAMES_PER_SECOND) as film:
+        for number in numbers:
+            time = number / _FRAMES_PER_SECOND
             index = plan.token_at(time)
             caption = "" if index is None else _caption(plan.timings[index].token)
             film.add(render_pose(_pose(plan, time), _CAMERA, robot=humanoid.name), caption)
@@ -62,4 +62,4 @@ def _caption(token: Token) -> str:
 
 
 def _pose(plan: Plan, time: float) -> dict[str, float]:
-    return dict(zip(plan.names, plan.at(time)[0].tolist(), strict=True))
+    return dict(zip(plan.names, plan.at(time).position.tolist(), strict=True))

@@ -17,9 +17,9 @@ import numpy as np
 from teo_lut_executor.execution.interface import HaltReady, StopReady
 from teo_lut_executor.execution.sent_motion import LEAST_AHEAD, SentMotion
 from teo_lut_executor.execution.situation import Situation
-from teo_motion.sentence.plan import Plan, Samples
-from teo_motion.trajectory.driver_points import driver_points, point_times
-from teo_motion.trajectory.joint_motion import JointMotion, JointMotionBuilder, Pieces, take
+from teo_motion.sentence.plan import Plan
+from teo_motion.trajectory.driver_points import Samples, driver_points, point_times
+from teo_motion.trajectory.joint_motion import JointMotion, Pieces, motion_of, standing, take
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import RuckigSolver, State
 from teo_motion.trajectory.stopping import stop
@@ -140,7 +140,7 @@ def brake(motion: SentMotion, following: SentMotion | None, limits: MotionLimits
     seam = motion.last_seam(earliest + period)
     if seam >= motion.plan.duration:
         return None
-    start = motion.state_at(seam)
+    start = motion.plan.at(seam)
     pieces = RuckigSolver(len(limits.names)).brake(start, limits.bounds)
     times = point_times(float(pieces.lengths.sum(axis=1).max()), period)
     braking = [
@@ -150,7 +150,7 @@ def brake(motion: SentMotion, following: SentMotion | None, limits: MotionLimits
     plan = Plan(
         names=limits.names,
         motions=tuple(braking),
-        samples=Samples(times=times, **driver_points(braking, times)._asdict()),
+        samples=driver_points(braking, times),
         timings=(),
         stretch=1.0,
     )
@@ -161,8 +161,6 @@ def brake(motion: SentMotion, following: SentMotion | None, limits: MotionLimits
 def _then_still(pieces: Pieces, position: float, duration: float) -> JointMotion:
     """One joint's pieces, if any last, from a position [rad] on, and a standstill up to a time [s]."""
     lasting = take(pieces, np.flatnonzero(pieces.lengths > 0.0))
-    builder = JointMotionBuilder()
-    builder.add(0.0, lasting)
     end = lasting.after(lasting.lengths)[0][-1] if len(lasting.lengths) else position
-    builder.hold(float(lasting.lengths.sum()), float(end))
-    return builder.build(duration)
+    stands = (float(lasting.lengths.sum()), standing(np.array(float(end))))
+    return motion_of([(0.0, lasting), stands], duration)

@@ -5,10 +5,11 @@
 from __future__ import annotations
 
 import enum
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
-from teo_motion.sentence.plan import Plan, Samples, TokenTiming
+from teo_motion.sentence.plan import Plan, TokenTiming
 from teo_motion.sentence.sentence_form import STATEMENT, SentenceForm
+from teo_motion.trajectory.driver_points import Samples
 from teo_motion.trajectory.ruckig_segment import State
 from teo_signs.tokens import Token
 
@@ -243,7 +244,7 @@ class Finished:
     ticket: int
     outcome: Outcome
     message: str = ""
-    timings: tuple[TokenTiming, ...] = field(default=())
+    timings: tuple[TokenTiming, ...] = ()
 
 
 #: What is to be done.

@@ -19,9 +19,8 @@ import numpy as np
 
 from teo_lut_executor.execution.interface import QueueSettings
 from teo_lut_executor.execution.situation import RobotState
-from teo_motion.sentence.plan import Plan, Samples, sample_at
-from teo_motion.trajectory.driver_points import spline_points
-from teo_motion.trajectory.ruckig_segment import State
+from teo_motion.sentence.plan import Plan, sample_at
+from teo_motion.trajectory.driver_points import Samples, spline_points
 from teo_signs.errors import PlanError
 
 # With less time than this the driver might get a continuation too late [s]: a period of points, and the
@@ -92,11 +91,6 @@ class SentMotion:
                 self.elapsed, self.awaited, self._leapt = elapsed, False, 0.0
                 return
 
-    def state_at(self, time: float) -> State:
-        """State of the joints at a path time [s]."""
-        position, velocity, acceleration = self.plan.at(time)
-        return State(position=position, velocity=velocity, acceleration=acceleration)
-
     def is_reached(self, robot: RobotState, age: float) -> bool:
         """Whether joint states of after the end show the robot there, at rest.
 
@@ -157,11 +151,7 @@ class SentMotion:
         period = float(continuation.times[1])
         before = sample_at(self.plan.motions, np.array([seam - 2.0 * period, seam - period])).positions
         after = sample_at(continuation.motions, np.array([0.0, period])).positions
-        seams = spline_points(np.concatenate((before, after)), period)
-        samples = continuation.samples
-        return Samples(
-            times=np.concatenate(([0.0], samples.times + period)),
-            positions=np.concatenate((seams.positions, samples.positions[1:])),
-            velocities=np.concatenate((seams.velocities, samples.velocities[1:])),
-            accelerations=np.concatenate((seams.accelerations, samples.accelerations[1:])),
-        )
+        seams = spline_points(np.concatenate((before, after)), np.array([0.0, period]))
+        later = continuation.samples._replace(times=continuation.times + period)
+        parts = zip(seams, later, strict=True)
+        return Samples(*(np.concatenate((first, then[1:])) for first, then in parts))

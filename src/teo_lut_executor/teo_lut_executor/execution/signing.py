@@ -74,7 +74,7 @@ def plan_from_end(work: Work, _: object = None) -> list[Effect]:
     assert current is not None and opening is not None
     work.continuation, work.asked = None, next(work.numbers)
     current.plan, current.joins = None, False
-    end = opening.state_at(opening.plan.duration)
+    end = opening.plan.at(opening.plan.duration)
     return [PlanWanted(number=work.asked, sentence=current.sentence, start=end)]
 
 
@@ -215,5 +215,5 @@ def _ask(work: Work, current: Job, motion: SentMotion) -> list[Effect]:
         return []
     hold = work.situation.settings.sentence_pause + end - splice if waits else 0.0
     work.join = Join(number=next(work.numbers), job=job, splice=splice)
-    start = motion.state_at(splice)
+    start = motion.plan.at(splice)
     return [PlanWanted(number=work.join.number, sentence=job.sentence, start=start, hold=hold)]

@@ -99,11 +99,7 @@ class RobotState:
 
     def state(self) -> State:
         """Positions and velocities, no acceleration; NaN for joints not heard of."""
-        return State(
-            position=self._positions.copy(),
-            velocity=self._velocities.copy(),
-            acceleration=np.zeros(len(self._positions)),
-        )
+        return State.still(self._positions.copy())._replace(velocity=self._velocities.copy())
 
     def farthest(self, positions: NDArray[np.float64]) -> tuple[float, str]:
         """The greatest distance of a joint from given positions [rad], and which joint."""

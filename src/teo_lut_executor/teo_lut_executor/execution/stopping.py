@@ -4,8 +4,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from teo_lut_executor.execution.braking import brake
 from teo_lut_executor.execution.interface import (
     Activity,
@@ -186,5 +184,5 @@ def _stop_robot(work: Work, follows: bool) -> list[Effect]:
         work.halt.owe()
     moving = situation.robot.state()
     if motion is not None and not departs:  # joint states tell no acceleration
-        moving = replace(moving, acceleration=motion.state_at(motion.elapsed).acceleration)
+        moving = moving._replace(acceleration=motion.plan.at(motion.elapsed).acceleration)
     return [*work.halt.stop(moving, next(work.numbers))]

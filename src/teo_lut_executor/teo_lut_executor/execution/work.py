@@ -28,7 +28,8 @@ from teo_lut_executor.execution.interface import (
 )
 from teo_lut_executor.execution.sent_motion import SentMotion
 from teo_lut_executor.execution.situation import Situation
-from teo_motion.sentence.plan import Plan, Samples
+from teo_motion.sentence.plan import Plan
+from teo_motion.trajectory.driver_points import Samples
 from teo_motion.trajectory.limits import MotionLimits
 from teo_signs.errors import PlanError
 

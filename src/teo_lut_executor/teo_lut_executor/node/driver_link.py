@@ -1,9 +1,13 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""What goes to the driver and what it says: motions by topic or action, `driver_state`, refusals."""
+"""What goes to the driver and what it says: motions by topic or action, `driver_state`, refusals.
+
+One executor moves a robot: two that hear the same sentences would both send their motions to it.
+"""
 
 from __future__ import annotations
 
+import socket
 import uuid
 from collections.abc import Callable
 
@@ -19,6 +23,7 @@ from trajectory_msgs.msg import JointTrajectory
 from teo_lut_executor.execution.interface import DriverReport
 from teo_lut_executor.node.messages import to_report
 from teo_lut_executor.node.parameters import ACTION
+from teo_signs.errors import PlanError
 
 _RESULT = FollowJointTrajectory.Result
 
@@ -30,6 +35,33 @@ _REFUSALS = {
     _RESULT.PATH_TOLERANCE_VIOLATED: "PATH_TOLERANCE_VIOLATED",
     _RESULT.GOAL_TOLERANCE_VIOLATED: "GOAL_TOLERANCE_VIOLATED",
 }
+
+
+def claim(topic: str, domain: int) -> socket.socket:
+    """Claim a topic for this process, among those of the machine.
+
+    Args:
+        topic: Its full name.
+        domain: Of DDS.
+
+    Returns:
+        What holds the claim until it is closed, or the process ends, however that comes about.
+
+    Raises:
+        PlanError: Another executor sends to it ("other_executor").
+    """
+    # A name that is no file: Linux forgets it with the process, also with one that is killed.
+    held = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+    try:
+        held.bind(f"\0teo_lut_executor.{domain}.{topic}")
+    except OSError as error:
+        held.close()
+        raise PlanError(
+            "other_executor",
+            f"expected no other executor to send to {topic}, one does, and this one signs nothing: end one "
+            "of them, or give it a namespace of its own",
+        ) from error
+    return held
 
 
 class DriverLink:

@@ -33,9 +33,8 @@ from teo_lut_executor.execution.interface import (
     TrajectoryReady,
 )
 from teo_lut_executor.execution.queue import ExecutionQueue
-from teo_lut_executor.node.claim import claim
 from teo_lut_executor.node.diagnostics import Statistics, diagnose
-from teo_lut_executor.node.driver_link import DriverLink
+from teo_lut_executor.node.driver_link import DriverLink, claim
 from teo_lut_executor.node.messages import to_status, to_stop, to_trajectory
 from teo_lut_executor.node.parameters import PARAMETERS, planner_settings_from, queue_settings_from
 from teo_lut_executor.node.sentence_intake import SentenceIntake, open_journal

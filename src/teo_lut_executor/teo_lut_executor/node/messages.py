@@ -15,8 +15,9 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from teo_common.arrays import Array
 from teo_lut_executor.execution.interface import DriverMode, DriverReport, Sentence, Status
-from teo_motion.sentence.plan import Samples, TokenTiming
+from teo_motion.sentence.plan import TokenTiming
 from teo_motion.sentence.sentence_form import SentenceForm, SentenceType
+from teo_motion.trajectory.driver_points import Samples
 from teo_motion.trajectory.ruckig_segment import State
 from teo_signs.sign import Sign
 from teo_signs.tokens import Kind, Token

@@ -12,12 +12,8 @@ from typing import cast
 from teo_common.parameters import AUTOSTART, ROBOT, ParameterRow
 from teo_lut_executor.execution.interface import Preemption, QueueSettings
 from teo_lut_executor.planning_worker import PlannerSettings
-from teo_motion.planner import DEFAULT_CLEARANCE, DEFAULT_MAX_DURATION, DEFAULT_PERIOD
-from teo_motion.sentence.signing_style import DEFAULT_REST, RestPosture, SigningStyle
-from teo_motion.trajectory.limits import DEFAULT_ACCELERATION, DEFAULT_JERK
-from teo_sign_languages import DEFAULT_LANGUAGE
+from teo_motion.sentence.signing_style import RestPosture, SigningStyle
 from teo_signs.errors import PlanError
-from teo_signs.lexicon import DEFAULT_STANDING
 from teo_signs.sign_schema import STANDINGS, Standing
 
 Value = str | int | float
@@ -25,19 +21,20 @@ Value = str | int | float
 # Values of `trajectory_interface`.
 TOPIC, ACTION = "topic", "action"
 
-_STYLE = SigningStyle()
-_QUEUE = QueueSettings()
+# Defaults of what is set by the parameter of the same name.
+_DEFAULTS = vars(PlannerSettings()) | vars(SigningStyle()) | vars(QueueSettings())
 
 
-def _row(name: str, default: float, low: float, high: float, description: str) -> ParameterRow:
-    return ParameterRow(name=name, default=default, low=low, high=high, description=description)
+def _row(name: str, low: float, high: float, description: str) -> ParameterRow:
+    """A number of the settings."""
+    return ParameterRow(name=name, default=_DEFAULTS[name], low=low, high=high, description=description)
 
 
 PARAMETERS = (
     ROBOT,
     ParameterRow(
         name="language",
-        default=DEFAULT_LANGUAGE,
+        default=_DEFAULTS["language"],
         description="Sign language, by its ISO 639-3 code. Sentences of another are refused; those taken "
         "before a change are signed in their own.",
     ),
@@ -49,7 +46,7 @@ PARAMETERS = (
     ),
     ParameterRow(
         name="least_standing",
-        default=DEFAULT_STANDING,
+        default=_DEFAULTS["least_standing"],
         description=f"Lowest standing of signs ({', '.join(STANDINGS)}); words of a lower one are spelled.",
     ),
     ParameterRow(
@@ -84,114 +81,82 @@ PARAMETERS = (
     # Motion.
     ParameterRow(
         name="hand_drive",
-        default="",
+        default=_DEFAULTS["hand_drive"],
         description="Gearmotors of the hands, which limit the speed of their axes: one of the robot's "
         "`hand_drives`, where it has several; empty for its default. The driver's parameter of that name "
         "must not name slower ones.",
     ),
     _row(
         "acceleration",
-        DEFAULT_ACCELERATION,
         0.5,
         50.0,
         "Greatest acceleration of the body's joints [rad/s^2]; hands: times their drive's `quickness`.",
     ),
-    _row("jerk", DEFAULT_JERK, 1.0, 1000.0, "Greatest jerk of the body's joints [rad/s^3]; hands likewise."),
-    _row("period", DEFAULT_PERIOD, 0.005, 0.1, "Time between two points of a trajectory [s]."),
+    _row("jerk", 1.0, 1000.0, "Greatest jerk of the body's joints [rad/s^3]; hands likewise."),
+    _row("period", 0.005, 0.1, "Time between two points of a trajectory [s]."),
     _row(
         "least_clearance",
-        DEFAULT_CLEARANCE,
         0.0,
         0.1,
         "Distance that parts of the robot keep from each other [m]; a sentence that cannot is refused.",
     ),
-    _row("max_duration", DEFAULT_MAX_DURATION, 1.0, 600.0, "Longest sentence that is signed [s]."),
+    _row("max_duration", 1.0, 600.0, "Longest sentence that is signed [s]."),
     ParameterRow(
         name="rest_posture",
-        default=str(DEFAULT_REST),
+        default=str(_DEFAULTS["rest_posture"]),
         choices=tuple(str(posture) for posture in RestPosture),
         description="Where the robot waits: with hanging arms, or ready, hands low before the body. A robot "
         "that stands in either is at rest.",
     ),
     # Style.
-    _row("transition", _STYLE.transition, 0.0, 5.0, "Least time between two signs [s]."),
-    _row("letter_hold", _STYLE.letter_hold, 0.0, 5.0, "Time for which a letter or number stands still [s]."),
-    _row(
-        "last_letter_hold",
-        _STYLE.last_letter_hold,
-        0.0,
-        10.0,
-        "Times as long for a word's last letter [1].",
-    ),
-    _row("word_pause", _STYLE.word_pause, 0.0, 5.0, "Time of standing still after a spelled word [s]."),
-    _row("pause", _STYLE.pause, 0.0, 10.0, "Time of a pause token [s]."),
-    _row("posture_hold", _STYLE.posture_hold, 0.0, 5.0, "Time for which a sign of one posture is held [s]."),
-    _row("final_hold", _STYLE.final_hold, 0.0, 5.0, "Time for which a sentence's last sign is held [s]."),
-    _row(
-        "question_hold",
-        _STYLE.question_hold,
-        0.0,
-        5.0,
-        "Time for which a yes/no question's last sign is held [s].",
-    ),
-    _row(
-        "repeat_angle", _STYLE.repeat_angle, 0.0, 0.5, "Move of the elbow between two equal postures [rad]."
-    ),
-    _row("repeat_time", _STYLE.repeat_time, 0.0, 2.0, "Least time of each half of that move [s]."),
-    _row("arm_rest", _STYLE.arm_rest, 0.0, 60.0, "Least time at rest worth an idle arm's way [s]."),
+    _row("transition", 0.0, 5.0, "Least time between two signs [s]."),
+    _row("letter_hold", 0.0, 5.0, "Time for which a letter or number stands still [s]."),
+    _row("last_letter_hold", 0.0, 10.0, "Times as long for a word's last letter [1]."),
+    _row("word_pause", 0.0, 5.0, "Time of standing still after a spelled word [s]."),
+    _row("pause", 0.0, 10.0, "Time of a pause token [s]."),
+    _row("posture_hold", 0.0, 5.0, "Time for which a sign of one posture is held [s]."),
+    _row("final_hold", 0.0, 5.0, "Time for which a sentence's last sign is held [s]."),
+    _row("question_hold", 0.0, 5.0, "Time for which a yes/no question's last sign is held [s]."),
+    _row("repeat_angle", 0.0, 0.5, "Move of the elbow between two equal postures [rad]."),
+    _row("repeat_time", 0.0, 2.0, "Least time of each half of that move [s]."),
+    _row("arm_rest", 0.0, 60.0, "Least time at rest worth an idle arm's way [s]."),
     _row(
         "head_motion",
-        _STYLE.head_motion,
         0.0,
         1.0,
         "Size of the head gestures of questions, negation and exclamations; 0 leaves them away [1].",
     ),
     _row(
         "least_size",
-        _STYLE.least_size,
         0.1,
         1.0,
         "Smallest size of a word that is too slow as large as in the table; 1 keeps all as large [1].",
     ),
     # Queue.
-    ParameterRow(
-        name="capacity",
-        default=_QUEUE.capacity,
-        low=1,
-        high=10_000,
-        description="Most sentences that wait; more are refused.",
-    ),
-    _row(
-        "joint_state_timeout",
-        _QUEUE.joint_state_timeout,
-        0.05,
-        10.0,
-        "Oldest joint states from which a sentence may start [s].",
-    ),
-    _row("goal_tolerance", _QUEUE.goal_tolerance, 0.001, 0.2, "How near to rest a sentence has ended [rad]."),
-    _row("goal_time", _QUEUE.goal_time, 0.0, 30.0, "Time after its planned end to be that near [s]."),
-    _row("path_tolerance", _QUEUE.path_tolerance, 0.02, 3.0, "How far a joint may be from the plan [rad]."),
+    _row("capacity", 1, 10_000, "Most sentences that wait; more are refused."),
+    _row("joint_state_timeout", 0.05, 10.0, "Oldest joint states from which a sentence may start [s]."),
+    _row("goal_tolerance", 0.001, 0.2, "How near to rest a sentence has ended [rad]."),
+    _row("goal_time", 0.0, 30.0, "Time after its planned end to be that near [s]."),
+    _row("path_tolerance", 0.02, 3.0, "How far a joint may be from the plan [rad]."),
     _row(
         "sentence_pause",
-        _QUEUE.sentence_pause,
         0.0,
         10.0,
         "Time of standing still between sentences that follow one another, beyond the last sign's hold [s].",
     ),
-    ParameterRow(
-        name="attempts",
-        default=_QUEUE.attempts,
-        low=1,
-        high=5,
-        description="How often a sentence that the robot does not follow is begun before it is given up [1].",
+    _row(
+        "attempts",
+        1,
+        5,
+        "How often a sentence that the robot does not follow is begun before it is given up [1].",
     ),
     ParameterRow(
         name="preempt_policy",
-        default=str(_QUEUE.preemption),
+        default=str(_DEFAULTS["preemption"]),
         choices=tuple(Preemption),
         description="What a new text does: wait in the queue, or replace every earlier one.",
     ),
-    _row("path_time", _QUEUE.path_time, 0.0, 10.0, "For how long it may be farther [s]."),
+    _row("path_time", 0.0, 10.0, "For how long it may be farther [s]."),
 )
 
 
@@ -205,6 +170,10 @@ def _one_of(values: Mapping[str, Value], name: str, choices: Iterable[str], *, c
     if value not in words:
         raise PlanError(code, f"{name}: expected one of {', '.join(words)}, got {value!r}")
     return str(value)
+
+
+# Settings of the planner that are numbers.
+_NUMBERS = ("acceleration", "jerk", "least_clearance", "period", "max_duration")
 
 
 def planner_settings_from(values: Mapping[str, Value]) -> PlannerSettings:
@@ -224,13 +193,9 @@ def planner_settings_from(values: Mapping[str, Value]) -> PlannerSettings:
         left_handed=hand == "left",
         least_standing=cast(Standing, standing),
         style=SigningStyle(**{field.name: float(values[field.name]) for field in fields(SigningStyle)}),
-        acceleration=float(values["acceleration"]),
-        jerk=float(values["jerk"]),
         hand_drive=str(values["hand_drive"]),
-        least_clearance=float(values["least_clearance"]),
-        period=float(values["period"]),
-        max_duration=float(values["max_duration"]),
         rest_posture=RestPosture(rest),
+        **{name: float(values[name]) for name in _NUMBERS},
     )
 
 

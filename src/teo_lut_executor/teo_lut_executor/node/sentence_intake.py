@@ -26,100 +26,8 @@ from teo_lut_executor.node.messages import to_sentence, to_timings
 from teo_signs.errors import PlanError
 
 
-class _Goals:
-    """Takes goals, and tells clients how their sentences are doing."""
-
-    def __init__(
-        self,
-        node: Node,
-        *,
-        accepts: Callable[[Sentence], bool],
-        take: Callable[[Sentence, ServerGoalHandle], None],
-        cancel: Callable[[int], None],
-    ) -> None:
-        """Serve the action.
-
-        Args:
-            node: Serves it.
-            accepts: Whether a sentence may be signed, as far as that is known when it comes.
-            take: Queues the sentence of a goal, and adds the goal.
-            cancel: Ends the sentence of a ticket early.
-        """
-        self._accepts, self._take, self._cancel = accepts, take, cancel
-        self._goals: dict[int, ServerGoalHandle] = {}
-        self._server = ActionServer(
-            node,
-            ExecuteSentence,
-            "execute_sentence",
-            execute_callback=_never_called,
-            goal_callback=self._on_request,
-            handle_accepted_callback=lambda goal: self._take(to_sentence(goal.request.sentence), goal),
-            cancel_callback=self._on_cancel,
-        )
-
-    def forget(self) -> None:
-        """Tell clients nothing any more."""
-        self._goals.clear()
-
-    def close(self) -> None:
-        """Serve no more."""
-        self._server.destroy()
-
-    def add(self, ticket: int, goal: ServerGoalHandle) -> None:
-        """Remember a goal until its sentence has ended."""
-        self._goals[ticket] = goal
-
-    def give_feedback(self, progress: Progress) -> None:
-        """Tell the client, if the sentence came from one."""
-        goal = self._goals.get(progress.ticket)
-        if goal is not None:
-            goal.publish_feedback(
-                ExecuteSentence.Feedback(
-                    token=progress.token,
-                    gloss=progress.gloss,
-                    progress=progress.fraction,
-                    stretch=progress.stretch,
-                )
-            )
-
-    def finish(self, finished: Finished) -> None:
-        """Tell the client, if the sentence came from one."""
-        goal = self._goals.pop(finished.ticket, None)
-        if goal is None:
-            return
-        result = ExecuteSentence.Result(
-            code=int(finished.outcome),
-            message=finished.message,
-            sentence=goal.request.sentence,
-            timings=to_timings(finished.timings),
-        )
-
-        def end(goal: ServerGoalHandle) -> ExecuteSentence.Result:
-            if finished.outcome == Outcome.SUCCESS:
-                goal.succeed()
-            elif finished.outcome == Outcome.CANCELED and goal.is_cancel_requested:
-                goal.canceled()
-            else:
-                goal.abort()
-            return result
-
-        # The goal is executed when its result is known: a callback that waits for it would keep rclpy's
-        # executor busy all the while, and one thread for each goal that waits is no better.
-        goal.execute(end)
-
-    def _on_request(self, goal: ExecuteSentence.Goal) -> GoalResponse:
-        return GoalResponse.ACCEPT if self._accepts(to_sentence(goal.sentence)) else GoalResponse.REJECT
-
-    def _on_cancel(self, goal: ServerGoalHandle) -> CancelResponse:
-        ticket = next((ticket for ticket, other in self._goals.items() if other is goal), None)
-        if ticket is None:
-            return CancelResponse.REJECT  # it has just ended
-        self._cancel(ticket)
-        return CancelResponse.ACCEPT
-
-
 def _never_called(goal: ServerGoalHandle) -> ExecuteSentence.Result:
-    """The callback that rclpy asks for; see `_Goals.finish` for the one that it gets."""
+    """The callback that rclpy asks for; see `SentenceIntake.finish` for the one that it gets."""
     goal.abort()
     return ExecuteSentence.Result(code=ExecuteSentence.Result.REFUSED)
 
@@ -197,11 +105,15 @@ class SentenceIntake:
         self._check, self._now, self._carry_out = check, now, carry_out
         self._own_language = own_language
         self._began = time.time()
-        self._goals = _Goals(
+        self._goals: dict[int, ServerGoalHandle] = {}  # of sentences that came as goals, by ticket
+        self._server = ActionServer(
             node,
-            accepts=self._accepts,
-            take=self._take_goal,
-            cancel=lambda ticket: self._carry_out(self._queue.cancel(ticket, self._now())),
+            ExecuteSentence,
+            "execute_sentence",
+            execute_callback=_never_called,
+            goal_callback=self._on_request,
+            handle_accepted_callback=lambda goal: self._submit(to_sentence(goal.request.sentence), goal=goal),
+            cancel_callback=self._on_cancel,
         )
         kinds = [DurabilityPolicy.VOLATILE]
         if journal.kept:  # first, so that what was published before is taken before what comes now
@@ -239,23 +151,63 @@ class SentenceIntake:
 
     def give_feedback(self, progress: Progress) -> None:
         """Tell the client whose sentence is signed, if it came from one."""
-        self._goals.give_feedback(progress)
+        goal = self._goals.get(progress.ticket)
+        if goal is not None:
+            goal.publish_feedback(
+                ExecuteSentence.Feedback(
+                    token=progress.token,
+                    gloss=progress.gloss,
+                    progress=progress.fraction,
+                    stretch=progress.stretch,
+                )
+            )
 
     def finish(self, finished: Finished) -> None:
-        """A sentence has ended."""
+        """A sentence has ended: write it down, and tell the client, if it came from one."""
         self._journal.ended(finished.ticket)
-        self._goals.finish(finished)
+        goal = self._goals.pop(finished.ticket, None)
+        if goal is None:
+            return
+        result = ExecuteSentence.Result(
+            code=int(finished.outcome),
+            message=finished.message,
+            sentence=goal.request.sentence,
+            timings=to_timings(finished.timings),
+        )
+
+        def end(goal: ServerGoalHandle) -> ExecuteSentence.Result:
+            if finished.outcome == Outcome.SUCCESS:
+                goal.succeed()
+            elif finished.outcome == Outcome.CANCELED and goal.is_cancel_requested:
+                goal.canceled()
+            else:
+                goal.abort()
+            return result
+
+        # The goal is executed when its result is known: a callback that waits for it would keep rclpy's
+        # executor busy all the while, and one thread for each goal that waits is no better.
+        goal.execute(end)
 
     def forget_goals(self) -> None:
         """Tell clients nothing any more."""
-        self._goals.forget()
+        self._goals.clear()
 
     def close(self) -> None:
         """Take nothing more."""
-        self._goals.close()
+        self._server.destroy()
         self._journal.close()
         for subscription in self._subscriptions:
             self._node.destroy_subscription(subscription)
+
+    def _on_request(self, goal: ExecuteSentence.Goal) -> GoalResponse:
+        return GoalResponse.ACCEPT if self._accepts(to_sentence(goal.sentence)) else GoalResponse.REJECT
+
+    def _on_cancel(self, goal: ServerGoalHandle) -> CancelResponse:
+        ticket = next((ticket for ticket, other in self._goals.items() if other is goal), None)
+        if ticket is None:
+            return CancelResponse.REJECT  # it has just ended
+        self._carry_out(self._queue.cancel(ticket, self._now()))
+        return CancelResponse.ACCEPT
 
     def _on_tokens(self, message: SignSentence, info: _MessageInfo) -> None:
         key = MessageKey(info["source_timestamp"], message.utterance_id, message.sentence_index)
@@ -269,9 +221,6 @@ class SentenceIntake:
             self._submit(sentence, message=key)
             return
         self._journal.refused(key)
-
-    def _take_goal(self, sentence: Sentence, goal: ServerGoalHandle) -> None:
-        self._submit(sentence, goal=goal)
 
     def _accepts(self, sentence: Sentence) -> bool:
         """Whether a sentence is one, as far as that is known without planning it; if not, that is told."""
@@ -297,6 +246,6 @@ class SentenceIntake:
             sentence = replace(sentence, language=self._own_language())
         ticket, events = self._queue.submit(sentence, self._now(), attempts=attempts)
         if goal is not None:
-            self._goals.add(ticket, goal)
+            self._goals[ticket] = goal
         self._journal.accepted(ticket, sentence, time.time(), attempts=attempts, message=message)
         self._carry_out(events)

@@ -71,14 +71,37 @@ class Services:
             self._node.destroy_service(service)
 
     def _on_list_signs(self, request: ListSigns.Request, response: ListSigns.Response) -> ListSigns.Response:
+        """Fill in the language, the glosses that begin with the prefix and are signed, and their kinds."""
         self.refresh()
-        for problem in _list_signs(self.lut, self._makes, request, response):
-            self._node.get_logger().warning(problem)
+        response.language = self.lut.language.code
+        prefix = gloss_key(request.prefix)
+        for gloss in self.lut.glosses():
+            if not gloss.startswith(prefix):
+                continue
+            try:
+                sign = self.lut[gloss]
+            except LutError as error:
+                self._node.get_logger().warning(f"not listed: {error}")
+                continue
+            if self._makes(sign):
+                response.glosses.append(gloss)
+                response.kinds.append(_KINDS[sign.kind])
         return response
 
     def _on_get_sign(self, request: GetSign.Request, response: GetSign.Response) -> GetSign.Response:
+        """Fill in one sign, or why there is none ("unknown_sign", "invalid_sign")."""
         self.refresh()
-        _get_sign(self.lut, request, response)
+        try:
+            sign = self.lut[request.gloss]
+            response.entry = self.lut.path(request.gloss).read_text(encoding="utf-8")
+        except (LutError, OSError) as error:
+            unknown = isinstance(error, LutError) and error.code == "unknown_sign"
+            response.code = "unknown_sign" if unknown else "invalid_sign"
+            response.message = str(error)
+            return response
+        response.trajectory = sign_trajectory(sign)
+        response.handedness = sign.handedness
+        response.success = True
         return response
 
     def _on_list_queue(self, _: ListQueue.Request, response: ListQueue.Response) -> ListQueue.Response:
@@ -94,42 +117,3 @@ class Services:
         self._carry_out(effects)
         response.success, response.message = True, f"{forgotten} sentences forgotten"
         return response
-
-
-def _list_signs(
-    lut: Lut, makes: Callable[[Sign], bool], request: ListSigns.Request, response: ListSigns.Response
-) -> list[str]:
-    """Fill in the language, the glosses that begin with the prefix and are signed, and their kinds.
-
-    Returns:
-        Why entries were left out; a sentence each.
-    """
-    problems: list[str] = []
-    response.language = lut.language.code
-    prefix = gloss_key(request.prefix)
-    for gloss in lut.glosses():
-        if gloss.startswith(prefix):
-            try:
-                sign = lut[gloss]
-            except LutError as error:
-                problems.append(f"not listed: {error}")
-                continue
-            if makes(sign):
-                response.glosses.append(gloss)
-                response.kinds.append(_KINDS[sign.kind])
-    return problems
-
-
-def _get_sign(lut: Lut, request: GetSign.Request, response: GetSign.Response) -> None:
-    """Fill in one sign, or why there is none ("unknown_sign", "invalid_sign")."""
-    try:
-        sign = lut[request.gloss]
-        response.entry = lut.path(request.gloss).read_text(encoding="utf-8")
-    except (LutError, OSError) as error:
-        unknown = isinstance(error, LutError) and error.code == "unknown_sign"
-        response.code = "unknown_sign" if unknown else "invalid_sign"
-        response.message = str(error)
-        return
-    response.trajectory = sign_trajectory(sign)
-    response.handedness = sign.handedness
-    response.success = True

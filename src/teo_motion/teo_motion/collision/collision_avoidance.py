@@ -107,9 +107,9 @@ class CollisionAvoidance:
 
     def _with_clear_thumbs(self, route: Route) -> TimedRoute:
         """A route with its motion, in which thumbs keep out of fingers."""
-        if self._thumbs is None:
-            return self._timing.timed(route)
-        return self._with_thumbs_led(self._timing.timed(with_clear_thumbs(route, self._thumbs, self._limits)))
+        if self._thumbs is not None:
+            route = with_clear_thumbs(route, self._thumbs, self._limits)
+        return self._with_thumbs_led(self._timing.timed(route))
 
     def _with_thumbs_led(self, timed: TimedRoute) -> TimedRoute:
         """A route with its motion, whose hands pass through more shapes where a thumb is in a finger."""

@@ -15,7 +15,8 @@ from teo_common.arrays import Array
 from teo_description.clearance import Clearance
 from teo_description.robot import Robot
 from teo_motion.collision.approach_bound import ApproachBound
-from teo_motion.sentence.plan import NearestApproach, Samples
+from teo_motion.sentence.plan import NearestApproach
+from teo_motion.trajectory.driver_points import Samples
 
 # Overlaps between two looks are found to within this [m]: parts that are at least so far apart at their
 # nearest overlap nowhere.

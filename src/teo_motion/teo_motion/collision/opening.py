@@ -8,14 +8,12 @@ plan of the sentence takes over while they do.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from teo_common.arrays import Array
 from teo_motion.collision.motion_clearance import MotionClearance
 from teo_motion.sentence.composition import Composition
-from teo_motion.sentence.plan import Plan, Samples
+from teo_motion.sentence.plan import Plan
 from teo_motion.trajectory.driver_points import point_times, spline_points
 from teo_motion.trajectory.joint_motion import JointMotion, Pieces, begins, in_a_row, standing, take
 from teo_motion.trajectory.limits import MotionLimits
@@ -63,9 +61,8 @@ def opening(
     first = np.where(np.isnan(composition.targets[1]), start.position, composition.targets[1])
     if np.abs(first - start.position).max() < _LEAST_WAY:
         return None
-    still = np.zeros_like(first)
     solver = RuckigSolver(len(first))
-    way = _eased(solver, start, State(position=first, velocity=still, acceleration=still), bounds, 0.0)
+    way = _eased(solver, start, State.still(first), bounds, 0.0)
     if way is None:
         return None
     # A whole number of periods: a motion is continued at one of its points.
@@ -74,7 +71,7 @@ def opening(
     end, time = stop(leaves, limits)
     # All joints stop at one time: those that would pass the first sign meanwhile stop at it.
     low, high = np.minimum(start.position, first), np.maximum(start.position, first)
-    end = replace(end, position=np.clip(end.position, low, high))
+    end = end._replace(position=np.clip(end.position, low, high))
     halt = _eased(solver, leaves, end, bounds, time)
     if halt is None:
         return None
@@ -96,11 +93,9 @@ def opening(
         return None
     # Before its beginning and after its end it stands still.
     controls = _positions(motion, np.concatenate((times[:1] - period, times, times[-1:] + period)))
-    samples = Samples(times=times, **spline_points(controls, period)._asdict())
-    return (
-        Plan(names=limits.names, motions=_of_each(motion), samples=samples, timings=(), stretch=1.0),
-        taken_over,
-    )
+    samples = spline_points(controls, times)
+    plan = Plan(names=limits.names, motions=_of_each(motion), samples=samples, timings=(), stretch=1.0)
+    return plan, taken_over
 
 
 def _eased(
@@ -115,12 +110,12 @@ def _eased(
 
 def _standing(position: Array, duration: float) -> Pieces:
     """All joints stand still for a time [s]. Shape (m, 1)."""
-    return replace(standing(position), lengths=np.full((len(position), 1), duration))
+    return standing(position)._replace(lengths=np.full((len(position), 1), duration))
 
 
 def _first_part(pieces: Pieces, duration: float) -> Pieces:
     """What of the pieces lies within a first time [s]; the others have no length any more."""
-    return replace(pieces, lengths=np.clip(duration - begins(0.0, pieces), 0.0, pieces.lengths))
+    return pieces._replace(lengths=np.clip(duration - begins(0.0, pieces), 0.0, pieces.lengths))
 
 
 def _after(pieces: Pieces, times: Array) -> tuple[Array, Array, Array]:
@@ -138,8 +133,7 @@ def _positions(pieces: Pieces, times: Array) -> Array:
 
 
 def _state_after(pieces: Pieces, time: float) -> State:
-    position, velocity, acceleration = (values[:, 0] for values in _after(pieces, np.array([time])))
-    return State(position=position, velocity=velocity, acceleration=acceleration)
+    return State(*(values[:, 0] for values in _after(pieces, np.array([time]))))
 
 
 def _of_each(pieces: Pieces) -> tuple[JointMotion, ...]:

@@ -249,12 +249,7 @@ class _Composer:
 
     def hold_start(self, duration: float) -> None:
         """Keep the limbs that stand still at the start where they are [s]; the others are free."""
-        start = self._start
-        still = tuple(
-            limb
-            for limb, columns in self._limbs.items()
-            if not (start.velocity[columns].any() or start.acceleration[columns].any())
-        )
+        still = tuple(limb for limb, columns in self._limbs.items() if self._start.of(columns).is_still)
         if duration > 0.0 and still:
             self._fix(duration, self._posture, still)
 

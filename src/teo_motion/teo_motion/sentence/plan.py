@@ -11,7 +11,9 @@ import numpy as np
 from teo_common.arrays import Array
 from teo_description.robot import Robot
 from teo_motion.sentence.sentence_form import GestureKind
+from teo_motion.trajectory.driver_points import Samples
 from teo_motion.trajectory.joint_motion import JointMotion
+from teo_motion.trajectory.ruckig_segment import State
 from teo_signs.tokens import Token
 
 
@@ -65,30 +67,13 @@ class HeadGesture:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Samples:
-    """A motion at instants; arrays are read-only.
-
-    Attributes:
-        times: [s], strictly increasing from 0. Shape (n,).
-        positions: [rad]. Shape (n, m), as the two below.
-        velocities: [rad/s].
-        accelerations: [rad/s^2].
-    """
-
-    times: Array
-    positions: Array
-    velocities: Array
-    accelerations: Array
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
 class Plan:
     """A sentence as motion, from a start to rest.
 
     Attributes:
         names: Joints, in the order of all columns.
         motions: The motion of each joint, exact at any time.
-        samples: What a driver is sent, the planner's period apart: see `driver_points`.
+        samples: What a driver is sent, the planner's period apart: see `driver_points`. Read-only.
         timings: When each token is signed, in order; empty for a way back to rest.
         stretch: Duration of all signs over the duration asked for; 1.0 as recorded.
         nearest: The closest that parts of the robot come to each other; None if it was not looked at.
@@ -128,10 +113,9 @@ class Plan:
         """Accelerations of the samples [rad/s^2]. Shape (n, m)."""
         return self.samples.accelerations
 
-    def at(self, time: float) -> tuple[Array, Array, Array]:
-        """Positions [rad], velocities [rad/s] and accelerations [rad/s^2] at a time [s]. Shape (m,) each."""
-        found = sample_at(self.motions, np.array([time]))
-        return found.positions[0], found.velocities[0], found.accelerations[0]
+    def at(self, time: float) -> State:
+        """The state of the joints at a time [s]."""
+        return State(*(values[0] for values in sample_at(self.motions, np.array([time]))[1:]))
 
     def token_at(self, time: float) -> int | None:
         """Index of the token being signed at a time [s]; None on the way between signs."""
@@ -142,13 +126,11 @@ class Plan:
 
 
 def sample_at(motions: tuple[JointMotion, ...], times: Array) -> Samples:
-    """A motion at given times [s]. Shape (n,)."""
+    """A motion at given times [s], of shape (n,); read-only."""
     positions, velocities, accelerations = (
         np.stack(columns, axis=1) for columns in zip(*(motion.at(times) for motion in motions), strict=True)
     )
-    for array in (times, positions, velocities, accelerations):
-        array.setflags(write=False)
-    return Samples(times=times, positions=positions, velocities=velocities, accelerations=accelerations)
+    return Samples(times, positions, velocities, accelerations).frozen()
 
 
 @dataclass(frozen=True, kw_only=True)

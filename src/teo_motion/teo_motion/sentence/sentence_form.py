@@ -50,7 +50,7 @@ STATEMENT = SentenceForm()
 _MARKS = "¿?¡!"
 
 
-class Word(NamedTuple):
+class _Word(NamedTuple):
     """A sign, or the letters and numbers that spell one word."""
 
     first: int
@@ -73,7 +73,7 @@ def _default_grammar() -> HeadGrammar:
     return load_language(DEFAULT_LANGUAGE).head
 
 
-def words_of(tokens: Sequence[Token], grammar: HeadGrammar) -> tuple[Word, ...]:
+def _words_of(tokens: Sequence[Token], grammar: HeadGrammar) -> tuple[_Word, ...]:
     """Group tokens by words: letters, numbers and the pauses among them by their word index."""
     words: list[tuple[int, int, str, bool]] = []
     for index, token in enumerate(tokens):
@@ -88,7 +88,7 @@ def words_of(tokens: Sequence[Token], grammar: HeadGrammar) -> tuple[Word, ...]:
             gloss = "" if token.kind == Kind.PAUSE else token.gloss
             words.append((index, index, gloss, token.spelled))
     return tuple(
-        Word(first, last, text, spelled, grammar.asks(text, spelled=spelled), grammar.negates(text))
+        _Word(first, last, text, spelled, grammar.asks(text, spelled=spelled), grammar.negates(text))
         for first, last, text, spelled in words
     )
 
@@ -101,7 +101,7 @@ def printed_form(text: str, tokens: Sequence[Token], grammar: HeadGrammar | None
         tokens: Its tokens.
         grammar: Of the sentence's language; None for the default one.
     """
-    words = words_of(tokens, grammar or _default_grammar())
+    words = _words_of(tokens, grammar or _default_grammar())
     sentence_type = SentenceType.STATEMENT
     if "?" in text:
         asking = any(word.asks for word in words)
@@ -162,7 +162,7 @@ def head_gestures(
         grammar: Of the sentence's language; None for the default one.
     """
     rules = grammar or _default_grammar()
-    words = words_of(tokens, rules)
+    words = _words_of(tokens, rules)
     signed = [word for word in words if tokens[word.first].kind != Kind.PAUSE]
     if not signed:
         return ()
@@ -186,7 +186,7 @@ def head_gestures(
     )
 
 
-def _negated(words: Sequence[Word], grammar: HeadGrammar) -> list[tuple[int, int]]:
+def _negated(words: Sequence[_Word], grammar: HeadGrammar) -> list[tuple[int, int]]:
     """First and last token of each negation: negative signs, with their neighbour unless it is a pause."""
     spans: list[tuple[int, int]] = []
     step = -1 if grammar.negated_neighbour == "before" else 1

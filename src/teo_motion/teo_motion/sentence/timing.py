@@ -10,11 +10,11 @@ import numpy as np
 
 from teo_common.arrays import Array
 from teo_motion.sentence.composition import Composition, Route
-from teo_motion.sentence.plan import Plan, Samples, TokenTiming
-from teo_motion.trajectory.driver_points import driver_points, point_times
+from teo_motion.sentence.plan import Plan, TokenTiming
+from teo_motion.trajectory.driver_points import Samples, driver_points, point_times
 from teo_motion.trajectory.joint_motion import JointMotion
 from teo_motion.trajectory.limits import MotionLimits
-from teo_motion.trajectory.ruckig_segment import ROUNDING, State
+from teo_motion.trajectory.ruckig_segment import ROUNDING
 from teo_motion.trajectory.waypoint_timing import LEAST_STEP, WaypointTiming
 from teo_signs.errors import PlanError
 
@@ -51,9 +51,10 @@ class SentenceTiming:
 
     def estimate(self, composition: Composition) -> Array:
         """When about each waypoint is passed, idle limbs aside [s]. Shape (n,)."""
-        return WaypointTiming(
-            composition.targets, composition.nominal, composition.strokes, composition.start, self._bounds
-        ).times
+        return self._timing(composition).times
+
+    def _timing(self, route: Route) -> WaypointTiming:
+        return WaypointTiming(route.targets, route.nominal, route.strokes, route.start, self._bounds)
 
     def timed(self, route: Route) -> TimedRoute:
         """Time a route.
@@ -62,10 +63,10 @@ class SentenceTiming:
             PlanError: It takes too long ("too_long"), no times are found ("no_timing"), or a joint cannot
                 stay within its limits ("outside_limits").
         """
-        timing = WaypointTiming(route.targets, route.nominal, route.strokes, route.start, self._bounds)
+        timing = self._timing(route)
         timing.solve()
         # A robot that stands still does so for a period more: see `driver_points`.
-        times = timing.times + (self._period if _stands_still(route.start) else 0.0)
+        times = timing.times + (self._period if route.start.is_still else 0.0)
         if times[-1] > self._max_duration:
             raise PlanError(
                 "too_long",
@@ -121,20 +122,9 @@ class SentenceTiming:
         # No further than the rounding that `_check` allows; controllers want the end to the digit.
         positions = np.clip(found.positions, self._limits.lower, self._limits.upper)
         positions[-1], found.velocities[-1], found.accelerations[-1] = end, 0.0, 0.0
-        for array in (times, positions, found.velocities, found.accelerations):
-            array.setflags(write=False)
-        return Samples(
-            times=times,
-            positions=positions,
-            velocities=found.velocities,
-            accelerations=found.accelerations,
-        )
+        return found._replace(positions=positions).frozen()
 
 
 def _stretch(duration: float, asked: float) -> float:
     """Time taken over the time asked for [1]; 1 where none was asked for, as of a pause of 0 s."""
     return duration / asked if asked > LEAST_STEP else 1.0
-
-
-def _stands_still(state: State) -> bool:
-    return not (state.velocity.any() or state.acceleration.any())

@@ -23,18 +23,29 @@ from teo_common.arrays import Array
 from teo_motion.trajectory.joint_motion import JointMotion, take
 
 
-class DriverPoints(NamedTuple):
-    """Points of a motion, of joints in columns."""
+class Samples(NamedTuple):
+    """A motion at instants, of joints in columns.
 
+    Attributes:
+        times: [s], strictly increasing from 0. Shape (n,).
+        positions: [rad]. Shape (n, m), as the two below.
+        velocities: [rad/s].
+        accelerations: [rad/s^2].
+    """
+
+    times: Array
     positions: Array
-    """[rad]. Shape (n, m)."""
     velocities: Array
-    """[rad/s]. Shape (n, m)."""
     accelerations: Array
-    """[rad/s^2]. Shape (n, m)."""
+
+    def frozen(self) -> Samples:
+        """The same, read-only."""
+        for array in self:
+            array.setflags(write=False)
+        return self
 
 
-def driver_points(motions: Sequence[JointMotion], times: Array) -> DriverPoints:
+def driver_points(motions: Sequence[JointMotion], times: Array) -> Samples:
     """The points of some joints.
 
     A joint that stands still for a period after the first time and before the last begins and ends exactly
@@ -51,23 +62,22 @@ def driver_points(motions: Sequence[JointMotion], times: Array) -> DriverPoints:
     for column, motion in enumerate(motions):
         controls[1:, column] = motion.at(later)[0]
         controls[0, column] = take(motion.pieces, 0).after(np.array(-period))[0]
-    return spline_points(controls, period)
+    return spline_points(controls, times)
 
 
-def spline_points(controls: Array, period: float) -> DriverPoints:
+def spline_points(controls: Array, times: Array) -> Samples:
     """The points of the spline with these control points.
 
     Args:
         controls: [rad]. Shape (n + 2, m): one before the first point and one after the last.
-        period: Time between two of them [s].
-
-    Returns:
-        Points of shape (n, m).
+        times: Of the points, evenly spaced [s]. Shape (n,), n >= 2.
     """
+    period = float(times[1] - times[0])
     before, here, after = controls[:-2], controls[1:-1], controls[2:]
     # From differences, which lose fewer digits than the sums, and are exactly 0 at a standstill.
     first, second = here - before, after - here
-    return DriverPoints(
+    return Samples(
+        times=times,
         positions=here + (second - first) / 6.0,
         velocities=(first + second) / (2.0 * period),
         accelerations=(second - first) / period**2,

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -29,8 +29,7 @@ class Extremes(NamedTuple):
     """Size [rad/s^3]."""
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Pieces:
+class Pieces(NamedTuple):
     """Pieces of constant jerk, of any shape; each array gives a number for each piece.
 
     Attributes:
@@ -52,7 +51,14 @@ class Pieces:
         p, v, a, j, t = self.positions, self.velocities, self.accelerations, self.jerks, times
         return p + t * (v + t * (a / 2.0 + t * j / 6.0)), v + t * (a + t * j / 2.0), a + t * j
 
-    def turns(self) -> Array:
+    def peaks(self) -> Array:
+        """Time within each piece at which its acceleration is zero, else 0 [s]."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            peak = -self.accelerations / self.jerks
+        inside = np.isfinite(peak) & (peak > 0.0) & (peak < self.lengths)
+        return np.where(inside, peak, 0.0)
+
+    def _turns(self) -> Array:
         """Times within each piece at which its velocity is zero, else 0 [s]. Shape (2, ...)."""
         v, a, j = self.velocities, self.accelerations, self.jerks
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -65,24 +71,16 @@ class Pieces:
     def range(self) -> tuple[Array, Array]:
         """Least and greatest position along the last axis [rad]."""
         times = np.empty((3, *self.lengths.shape))
-        times[0], times[1:] = self.lengths, self.turns()
-        t = times
-        reached = self.positions + t * (
-            self.velocities + t * (self.accelerations / 2.0 + t * (self.jerks / 6.0))
-        )
-        first = self.positions[..., 0]
-        return (
-            np.minimum(reached.min(axis=(0, -1)), first),
-            np.maximum(reached.max(axis=(0, -1)), first),
-        )
+        times[0], times[1:] = self.lengths, self._turns()
+        p, v, a, j, t = self.positions, self.velocities, self.accelerations, self.jerks, times
+        reached = p + t * (v + t * (a / 2.0 + t * (j / 6.0)))
+        first = p[..., 0]
+        return np.minimum(reached.min(axis=(0, -1)), first), np.maximum(reached.max(axis=(0, -1)), first)
 
     def extremes(self) -> Extremes:
         """The most that is reached along the last axis, also between any samples."""
         least, greatest = self.range()
-        with np.errstate(divide="ignore", invalid="ignore"):
-            peak = -self.accelerations / self.jerks
-        inside = np.isfinite(peak) & (peak > 0.0) & (peak < self.lengths)
-        times = np.stack([np.zeros_like(peak), self.lengths, np.where(inside, peak, 0.0)])
+        times = np.stack([np.zeros_like(self.lengths), self.lengths, self.peaks()])
         _, velocity, acceleration = self.after(times)
         return Extremes(
             least=least,
@@ -130,25 +128,13 @@ class JointMotion:
 
 def take(pieces: Pieces, index: NDArray[np.intp] | int | tuple[Any, ...]) -> Pieces:
     """Some of the pieces, by an index as arrays take it."""
-    return Pieces(
-        lengths=pieces.lengths[index],
-        positions=pieces.positions[index],
-        velocities=pieces.velocities[index],
-        accelerations=pieces.accelerations[index],
-        jerks=pieces.jerks[index],
-    )
+    return Pieces(*(values[index] for values in pieces))
 
 
 def standing(positions: Array) -> Pieces:
     """One piece for each position [rad], in which a joint stands still there for a second. Shape (..., 1)."""
     zero = np.zeros((*positions.shape, 1))
-    return Pieces(
-        lengths=np.ones_like(zero),
-        positions=positions[..., None],
-        velocities=zero,
-        accelerations=zero,
-        jerks=zero,
-    )
+    return Pieces(np.ones_like(zero), positions[..., None], zero, zero, zero)
 
 
 def begins(start: float, pieces: Pieces) -> Array:
@@ -159,12 +145,7 @@ def begins(start: float, pieces: Pieces) -> Array:
 
 def in_a_row(parts: Sequence[Pieces]) -> Pieces:
     """Pieces that follow one another along the last axis."""
-    return Pieces(
-        **{
-            field.name: np.concatenate([getattr(part, field.name) for part in parts], axis=-1)
-            for field in fields(Pieces)
-        }
-    )
+    return Pieces(*(np.concatenate(values, axis=-1) for values in zip(*parts, strict=True)))
 
 
 def in_order(starts: Array, pieces: Pieces, duration: float) -> JointMotion:
@@ -181,27 +162,17 @@ def in_order(starts: Array, pieces: Pieces, duration: float) -> JointMotion:
     # is left out too.
     keep = np.append(starts[:-1] < np.minimum.accumulate(starts[:0:-1])[::-1], True)
     starts = starts[keep]
-    kept = replace(take(pieces, lasting[keep]), lengths=np.diff(starts, append=duration))
+    kept = take(pieces, lasting[keep])._replace(lengths=np.diff(starts, append=duration))
     return JointMotion(starts=starts, pieces=kept)
 
 
-class JointMotionBuilder:
-    """Collects the pieces of one joint, in order."""
+def motion_of(parts: Sequence[tuple[float, Pieces]], duration: float) -> JointMotion:
+    """The motion of a joint, part after part, that ends at a time [s].
 
-    def __init__(self) -> None:
-        """Begin without any."""
-        self._starts: list[Array] = []
-        self._pieces: list[Pieces] = []
-
-    def add(self, start: float, pieces: Pieces) -> None:
-        """Add pieces of shape (k,) that follow one another from a time on [s]."""
-        self._starts.append(begins(start, pieces))
-        self._pieces.append(pieces)
-
-    def hold(self, start: float, position: float) -> None:
-        """Stand still from a time on [s], at a position [rad], until the next pieces begin."""
-        self.add(start, standing(np.array(position)))
-
-    def build(self, duration: float) -> JointMotion:
-        """The motion, which ends at a time [s]."""
-        return in_order(np.concatenate(self._starts), in_a_row(self._pieces), duration)
+    Args:
+        parts: When each part begins [s], and its pieces, which follow one another. Shape (k,) each. The last
+            piece of a part lasts until the next part begins.
+        duration: When the last part ends [s].
+    """
+    starts = np.concatenate([begins(start, pieces) for start, pieces in parts])
+    return in_order(starts, in_a_row([pieces for _, pieces in parts]), duration)

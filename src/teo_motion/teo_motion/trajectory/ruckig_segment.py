@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import ruckig
@@ -39,8 +39,7 @@ _SPARE = 1.01
 _SAMPLES = np.linspace(0.0, 1.0, 9)[:, None]
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Bounds:
+class Bounds(NamedTuple):
     """Limits of one segment: position [rad], velocity [rad/s], acceleration [rad/s^2], jerk [rad/s^3].
 
     Ruckig keeps the last three. Positions are for whoever calls it to check. Shape (m,) each.
@@ -48,7 +47,6 @@ class Bounds:
 
     lower: Array
     upper: Array
-
     velocity: Array
     acceleration: Array
     jerk: Array
@@ -66,34 +64,30 @@ class Bounds:
 
     def of(self, columns: list[int]) -> Bounds:
         """The limits of some of the joints."""
-        return Bounds(
-            lower=self.lower[columns],
-            upper=self.upper[columns],
-            velocity=self.velocity[columns],
-            acceleration=self.acceleration[columns],
-            jerk=self.jerk[columns],
-        )
+        return Bounds(*(values[columns] for values in self))
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class State:
+class State(NamedTuple):
     """Position [rad], velocity [rad/s] and acceleration [rad/s^2] of joints. Shape (m,) each."""
 
     position: Array
     velocity: Array
     acceleration: Array
 
+    @classmethod
+    def still(cls, position: Array) -> State:
+        """A standstill at a position [rad]."""
+        zero = np.zeros_like(position)
+        return cls(position, zero, zero)
+
+    @property
+    def is_still(self) -> bool:
+        """Whether no joint moves or begins to."""
+        return not (self.velocity.any() or self.acceleration.any())
+
     def of(self, columns: list[int]) -> State:
         """The state of some of the joints."""
-        return State(
-            position=self.position[columns],
-            velocity=self.velocity[columns],
-            acceleration=self.acceleration[columns],
-        )
-
-    def key(self) -> bytes:
-        """The numbers, to compare."""
-        return self.position.tobytes() + self.velocity.tobytes() + self.acceleration.tobytes()
+        return State(*(values[columns] for values in self))
 
 
 class RuckigSegment:
@@ -267,10 +261,7 @@ def _relaxed_bounds(begin: State, end: State, duration: float, bounds: Bounds, *
         room = np.maximum(bounds.velocity - np.abs(state.velocity), 1e-9)
         least_jerk = np.maximum(least_jerk, _SPARE * state.acceleration**2 / (2.0 * room))
         least_acceleration = np.maximum(least_acceleration, np.abs(state.acceleration))
-    return Bounds(
-        lower=bounds.lower,
-        upper=bounds.upper,
-        velocity=bounds.velocity,
+    return bounds._replace(
         acceleration=np.minimum(np.maximum(ease * acceleration, least_acceleration), bounds.acceleration),
         jerk=np.minimum(np.maximum(ease * jerk, least_jerk), bounds.jerk),
     )

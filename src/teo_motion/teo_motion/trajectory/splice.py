@@ -10,7 +10,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from teo_motion.trajectory.joint_motion import JointMotion, JointMotionBuilder, Pieces, take
+from teo_motion.trajectory.joint_motion import JointMotion, Pieces, motion_of, take
 from teo_motion.trajectory.ruckig_segment import FITS, Bounds, RuckigSolver, State
 
 # A joint with less velocity [rad/s] and acceleration [rad/s^2] stands still: rounding.
@@ -48,30 +48,23 @@ class Splicer:
         Returns:
             The motion; None if the limits leave too little time.
         """
-        still = np.zeros(1)
         states = [
             _state(motion, begin, side="left"),
-            *(
-                State(position=np.array([point.position]), velocity=still, acceleration=still)
-                for point in points
-            ),
+            *(State.still(np.array([point.position])) for point in points),
             _state(motion, end, side="right"),
         ]
         times = [begin, *(point.time for point in points), end]
-        inside = JointMotionBuilder()
+        inside: list[tuple[float, Pieces]] = []
         for (state, after), (time, later) in zip(pairwise(states), pairwise(times), strict=True):
             pieces = self._move(state, after, later - time)
             if pieces is None:
                 return None
-            inside.add(time, pieces)
-        path = inside.build(end)
+            inside.append((time, pieces))
+        path = motion_of(inside, end)
         if not self._bounds.allow(path.extremes()):
             return None
-        whole = JointMotionBuilder()
-        _copy(motion, 0.0, begin, whole)
-        whole.add(begin, path.pieces)
-        _copy(motion, end, motion.duration, whole)
-        return whole.build(motion.duration)
+        first, last = _part(motion, 0.0, begin), _part(motion, end, motion.duration)
+        return motion_of([*first, (begin, path.pieces), *last], motion.duration)
 
     def _move(self, begin: State, end: State, duration: float) -> Pieces | None:
         segments = self._solver.smooth_segments(begin, end, self._bounds, duration=duration)
@@ -80,11 +73,8 @@ class Splicer:
 
 def shifted(motion: JointMotion, begin: float, end: float, angle: float) -> JointMotion:
     """The motion with an angle [rad] added between two times [s]: its position jumps at both."""
-    whole = JointMotionBuilder()
-    _copy(motion, 0.0, begin, whole)
-    _copy(motion, begin, end, whole, angle)
-    _copy(motion, end, motion.duration, whole)
-    return whole.build(motion.duration)
+    first, last = _part(motion, 0.0, begin), _part(motion, end, motion.duration)
+    return motion_of([*first, *_part(motion, begin, end, angle), *last], motion.duration)
 
 
 def position_at(motion: JointMotion, time: float, *, side: Literal["left", "right"]) -> float:
@@ -106,8 +96,7 @@ def _state(motion: JointMotion, time: float, *, side: Literal["left", "right"]) 
     index = _piece_at(motion, time, side=side)
     # Not beyond the piece: the next one may be turned by an angle.
     elapsed = np.clip(time - motion.starts[index], 0.0, motion.pieces.lengths[index])
-    state = take(motion.pieces, np.array([index])).after(np.array([elapsed]))
-    return State(position=state[0], velocity=state[1], acceleration=state[2])
+    return State(*take(motion.pieces, np.array([index])).after(np.array([elapsed])))
 
 
 def _piece_at(motion: JointMotion, time: float, *, side: Literal["left", "right"]) -> int:
@@ -116,26 +105,16 @@ def _piece_at(motion: JointMotion, time: float, *, side: Literal["left", "right"
     return max(int(np.searchsorted(motion.starts, nearly, side=side)) - 1, 0)
 
 
-def _copy(
-    motion: JointMotion, begin: float, end: float, builder: JointMotionBuilder, angle: float = 0.0
-) -> None:
-    """Add the part of a motion between two times, with an angle added to its positions [rad]."""
+def _part(motion: JointMotion, begin: float, end: float, angle: float = 0.0) -> list[tuple[float, Pieces]]:
+    """What of a motion lies between two times, with an angle added to its positions [rad]; may be nothing."""
     if end <= begin:
-        return
+        return []
     first = _piece_at(motion, begin, side="right")
     last = max(_piece_at(motion, end, side="left"), first)
     starts = np.concatenate(([begin], motion.starts[first + 1 : last + 1]))
     pieces = take(motion.pieces, np.arange(first, last + 1))
     elapsed = np.zeros(len(starts))
     elapsed[0] = max(begin - motion.starts[first], 0.0)
-    entered = pieces.after(elapsed)
-    builder.add(
-        begin,
-        Pieces(
-            lengths=np.diff(starts, append=end),
-            positions=entered[0] + angle,
-            velocities=entered[1],
-            accelerations=entered[2],
-            jerks=pieces.jerks,
-        ),
-    )
+    positions, velocities, accelerations = pieces.after(elapsed)
+    lengths = np.diff(starts, append=end)
+    return [(begin, Pieces(lengths, positions + angle, velocities, accelerations, pieces.jerks))]

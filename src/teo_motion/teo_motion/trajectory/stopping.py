@@ -42,11 +42,10 @@ def stop(state: State, limits: MotionLimits) -> tuple[State, float]:
         1.5 * speed / limits.acceleration,
         (2.0 * acceleration + np.sqrt(4.0 * acceleration**2 + 6.0 * speed * jerk)) / jerk,
     )
-    still = np.zeros_like(speed)
     for ease in _EASES:
         time = max(_LEAST_STOP, ease * float(needed.max()))
         end = state.position + state.velocity * (_LATENCY + time / 2.0) + state.acceleration * time**2 / 12.0
         within = np.clip(end, limits.lower, limits.upper)
         if (within == end).all():
             break
-    return State(position=within, velocity=still, acceleration=still), time + _LATENCY
+    return State.still(within), time + _LATENCY

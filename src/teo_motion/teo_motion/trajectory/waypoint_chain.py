@@ -56,7 +56,7 @@ class WaypointChain:
         inside = (positions > bounds.lower + _ON_LIMIT) & (positions < bounds.upper - _ON_LIMIT)
         self._brake = inside.astype(np.float64)
         moving = (np.diff(positions, axis=0) != 0.0).any(axis=1)
-        moving[0] |= bool(start.velocity.any() or start.acceleration.any())
+        moving[0] |= not start.is_still
         self.moving = np.flatnonzero(moving)
         self._durations = np.zeros(len(waypoints) - 1)
         self._velocities = np.zeros_like(positions)
@@ -109,30 +109,24 @@ class WaypointChain:
         """Whether a segment begins and ends at a standstill."""
         return not self._velocities[index : index + 2].any()
 
-    def duration(self, index: int) -> float:
-        """Time that a segment is given [s]."""
-        return float(self._durations[index])
-
     def segment(self, index: int) -> RuckigSegment | None:
         """The segment from a waypoint to the next in its duration, or in the shortest possible above it.
 
         Returns:
             None where the solver finds none.
         """
-        return self._solver.segment(*self._ends(index), self.bounds, duration=self.duration(index))
+        return self._solver.segment(*self._ends(index), self.bounds, duration=float(self._durations[index]))
 
     def smooth_segments(self, index: int) -> Iterator[RuckigSegment]:
         """Segments from a waypoint to the next in its duration: see `RuckigSolver.smooth_segments`."""
-        return self._solver.smooth_segments(*self._ends(index), self.bounds, duration=self.duration(index))
+        return self._solver.smooth_segments(
+            *self._ends(index), self.bounds, duration=float(self._durations[index])
+        )
 
     def _ends(self, index: int) -> tuple[State, State]:
         """States at a waypoint and at the next."""
         begin, end = (
-            State(
-                position=self.positions[at],
-                velocity=self._velocities[at],
-                acceleration=self._accelerations[at],
-            )
+            State(self.positions[at], self._velocities[at], self._accelerations[at])
             for at in (index, index + 1)
         )
         return begin, end
@@ -153,11 +147,7 @@ class WaypointChain:
         highest = np.minimum(ends.max(axis=0) + OVERSHOOT, self.bounds.upper + ROUNDING)
         least, greatest = pieces.range()
         slow: NDArray[np.bool_] = (least < lowest) | (greatest > highest)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            peak = -pieces.accelerations / pieces.jerks
-        inside = np.isfinite(peak) & (peak > 0.0) & (peak < pieces.lengths)
-        times = np.where(inside, peak, 0.0)
-        speeds = np.abs(pieces.velocities + times * (pieces.accelerations + times * pieces.jerks / 2.0))
+        speeds = np.abs(pieces.after(pieces.peaks())[1])
         top = self.bounds.velocity[:, None] * (1.0 + ROUNDING)
         too_fast = ((speeds > top) & (pieces.lengths > 0.0)).any(axis=(1, 2))
         starting = np.array(indices) == 0
