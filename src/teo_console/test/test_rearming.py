@@ -8,7 +8,7 @@ import pytest
 from std_srvs.srv import Trigger
 
 from teo_console.node.messages import to_answer
-from teo_console.node.rearming import Rearming, Reply
+from teo_console.node.robot_client import Rearming, Reply
 from teo_console.protocol import Answer, Command, Order
 
 REARM = Command(id=7, order=Order.REARM)

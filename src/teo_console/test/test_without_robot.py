@@ -203,7 +203,7 @@ def server(folder: Path) -> Iterator[str]:
         return make_app(
             web_folder=WEB,
             access=Access.for_address("127.0.0.1", frozenset()),
-            hub=Hub(refuse, lambda _: None),
+            hub=Hub(refuse),
             urdf=lambda: "<robot/>",
             routes=[web.get("/api/signs", signs), *sign_writing_routes(folder)],
         )

@@ -140,7 +140,7 @@ async def _run_in_a_folder(job: Job) -> None:
     try:
         await run(job, folder)
     except OSError as error:
-        job.state, job.code, job.message = "failed", "not_started", f"{job.command.name}: {error}"
+        job.fail("not_started", f"{job.command.name}: {error}")
     finally:
         shutil.rmtree(folder, ignore_errors=True)
         job.then()
