@@ -16,6 +16,8 @@ from typed_page import blocks_of
 from teo_bringup.graph import executable_of
 from teo_bringup.network import main
 
+Network = Callable[..., dict[str, str]]
+
 PAGE = Path(__file__).parents[3] / "docs" / "machines.md"
 PATIENCE = 120.0  # [s] for Python processes to start and find each other on a loaded machine
 # Says its own name, and whether it has heard another's, until that has heard it too; then for a second more,
@@ -55,7 +57,7 @@ run_node(Talker, None)
 
 
 @pytest.fixture
-def network(capsys: pytest.CaptureFixture[str]) -> Callable[..., dict[str, str]]:
+def network(capsys: pytest.CaptureFixture[str]) -> Network:
     """Runs `network`; gives what a shell has that sources the printed lines."""
 
     def run(*arguments: str | Path) -> dict[str, str]:
@@ -86,7 +88,7 @@ def tls(folder: Path) -> list[str]:
 @pytest.mark.usefixtures("domain_id")
 @pytest.mark.slow
 def test_nodes_that_meet_by_a_server_over_tls_have_no_udp_port(
-    network: Callable[..., dict[str, str]], certificates: Path, tmp_path: Path
+    network: Network, certificates: Path, tmp_path: Path
 ) -> None:
     endpoint = f"127.0.0.1:{15000 + int(os.environ['ROS_DOMAIN_ID'])}"
     made = {
@@ -113,9 +115,7 @@ def test_nodes_that_meet_by_a_server_over_tls_have_no_udp_port(
     assert said == ["hears luis udp []\n", "hears ana udp []\n"]
 
 
-def test_peers_come_by_what_ros_2_has_and_no_multicast_is_asked_for(
-    network: Callable[..., dict[str, str]], tmp_path: Path
-) -> None:
+def test_peers_come_by_what_ros_2_has_and_no_multicast_is_asked_for(network: Network, tmp_path: Path) -> None:
     output = tmp_path / "peers.xml"
     made = network("peers", "10.0.0.1", "10.0.0.2", "--output", output)
     assert made["ROS_AUTOMATIC_DISCOVERY_RANGE"] == "LOCALHOST"
@@ -145,7 +145,7 @@ def test_the_pages_lines_leave_a_shell_that_finds_other_machines(
     assert "192.168.10.3" in done.stdout
 
 
-def test_a_client_without_certificates_needs_no_profile(network: Callable[..., dict[str, str]]) -> None:
+def test_a_client_without_certificates_needs_no_profile(network: Network) -> None:
     made = network("client", "10.0.0.2:11811")
     assert (made["ROS_DISCOVERY_SERVER"], made["ROS_SUPER_CLIENT"]) == ("10.0.0.2:11811", "TRUE")
 

@@ -51,17 +51,15 @@ class Progress:
 class Job:
     """One run of a command. Fields change as it goes; `ended` is set when nothing will change any more."""
 
-    def __init__(self, command: Command, number: int, then: Callable[[], None]) -> None:
+    def __init__(self, command: Command, then: Callable[[], None]) -> None:
         """A job that waits.
 
         Args:
             command: What to run.
-            number: Counts the jobs of the queue.
             then: To be called when it has run.
         """
         self.id = secrets.token_urlsafe(12)  # who has it may look at it and cancel it
         self.command = command
-        self.number = number
         self.then = then
         self.state: _State = "waiting"
         self.progress = Progress()
