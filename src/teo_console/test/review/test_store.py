@@ -23,10 +23,17 @@ from teo_console.review.store import ReviewStore
 MOTION = Motion(joints=("FrontalRightElbow",), times=(0.0, 1.0), positions=((0.0,), (-1.0,)))
 
 
-def item(meaning: str, choices: tuple[str, ...] = ()) -> NewItem:
-    return NewItem(
-        kind="sign", meaning=meaning, language="ssp", motion_hash="0" * 64, motion=MOTION, choices=choices
-    )
+def item(meaning: str) -> NewItem:
+    return NewItem(kind="sign", meaning=meaning, language="ssp", motion_hash="0" * 64, motion=MOTION)
+
+
+def answer(store: ReviewStore, meaning: str, understood: str) -> None:
+    """Enter a series of one item, and what somebody understood."""
+    series = store.add_series("review", "one", [item(meaning)], seed=1)
+    ana = store.reviewer("Ana")
+    question = store.next_question(series, ana)
+    assert question is not None
+    store.answer(question.item, ana, understood)
 
 
 @pytest.fixture
@@ -75,11 +82,7 @@ def test_choices_are_fifteen_the_right_one_and_those_most_like_it() -> None:
 def test_recognised_is_who_says_the_gloss_whatever_the_accents(
     store: ReviewStore, said: str, recognised: bool
 ) -> None:
-    series = store.add_series("review", "", [item("POR_FAVOR")], seed=1)
-    ana = store.reviewer("Ana")
-    question = store.next_question(series, ana)
-    assert question is not None
-    store.answer(question.item, ana, said)
+    answer(store, "POR_FAVOR", said)
     assert store.answers()[0].recognised == recognised
 
 
@@ -93,14 +96,10 @@ def test_a_name_is_one_person_however_it_is_typed(store: ReviewStore) -> None:
 def test_what_was_said_outlives_the_program(tmp_path: Path) -> None:
     path = tmp_path / "reviews.sqlite"
     store = ReviewStore(path)
-    series = store.add_series("review", "one", [item("CASA")], seed=1)
-    ana = store.reviewer("Ana")
-    question = store.next_question(series, ana)
-    assert question is not None
-    store.answer(question.item, ana, "casa")
+    answer(store, "CASA", "casa")
     store.close()
     store = ReviewStore(path)
-    assert [answer.understood for answer in store.answers(series)] == ["casa"]
+    assert [said.understood for said in store.answers()] == ["casa"]
     assert [(one.title, one.items, one.reviewers) for one in store.series()] == [("one", 1, 1)]
     store.close()
 
