@@ -157,8 +157,9 @@ def test_recordings_of_a_console_that_was_killed_are_deleted(process: int, tmp_p
     left.parent.mkdir(parents=True)
     left.touch()
     api = Api(tmp_path)
+    remains = left.exists()
     api.thread.close()
-    assert not left.exists()
+    assert not remains
 
 
 def test_drawings_and_no_other_file_are_given_out_under_the_page_s_rules(api: Api) -> None:

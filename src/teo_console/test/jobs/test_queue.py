@@ -83,6 +83,7 @@ async def test_commands_run_one_at_a_time_and_each_knows_how_many_come_before(
     for number, job in enumerate(jobs, start=1):
         await job.ended.wait()
         assert len(ended) >= number
+        assert all(later.state == "waiting" for later in jobs[number + 1 :])  # on a slow machine too
     assert [queue.told(job)["ahead"] for job in jobs] == [0, 0, 0]
     assert log.read_text() == "b1e1b2e2b3e3"
 
