@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Requests to re-arm a robot: passed on, and given up when it is stopped again."""
+"""Requests of pages: re-arming is given up when the robot is stopped again; refusals have their reason."""
 
 from __future__ import annotations
 
