@@ -4,10 +4,9 @@
 
 from launch import LaunchDescription
 
-from teo_bringup.graph import NODES
 from teo_bringup.up import launch_description
 
 
 def generate_launch_description() -> LaunchDescription:
     """Describe what is started."""
-    return launch_description(NODES["console"])
+    return launch_description("console")

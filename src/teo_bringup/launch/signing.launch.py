@@ -4,10 +4,10 @@
 
 from launch import LaunchDescription
 
-from teo_bringup.graph import NODES, SIGNING
+from teo_bringup.graph import SIGNING
 from teo_bringup.up import launch_description
 
 
 def generate_launch_description() -> LaunchDescription:
     """Describe what is started."""
-    return launch_description(*(NODES[name] for name in SIGNING))
+    return launch_description(*SIGNING)

@@ -13,14 +13,12 @@ import shlex
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from string import Template
-from typing import Annotated, NamedTuple
+from typing import Annotated
 from xml.sax.saxutils import escape
 
 import typer
-from ament_index_python.packages import get_package_share_directory
 
-from teo_bringup.access import write_access_files
+from teo_bringup.access import write_access_files, xml_template
 from teo_common.atomic_files import write_atomically
 from teo_common.dds_profiles import VARIABLE
 from teo_common.errors import CodedError
@@ -30,37 +28,28 @@ class _NetworkError(CodedError):
     """What is asked of the network cannot be made."""
 
 
-class _Endpoint(NamedTuple):
-    """Where a discovery server listens."""
+def _endpoint(text: str) -> dict[str, object]:
+    """Address and port (1 to 65535) of ADDRESS:PORT, where a discovery server listens.
 
-    address: str
-    """IPv4 address."""
-    port: int
-    """1 to 65535."""
-
-    @classmethod
-    def parse(cls, text: str) -> _Endpoint:
-        """Read ADDRESS:PORT.
-
-        Raises:
-            _NetworkError: `bad_endpoint`: it is none.
-        """
-        address, _, port = text.rpartition(":")
-        try:
-            endpoint = cls(str(ipaddress.IPv4Address(address)), int(port))
-        except ValueError:
-            endpoint = cls(address, 0)
-        if not 0 < endpoint.port < 2**16:
-            raise _NetworkError(
-                "bad_endpoint", f"expected an IPv4 address and a port, such as 10.0.0.2:11811; got {text!r}"
-            )
-        return endpoint
+    Raises:
+        _NetworkError: `bad_endpoint`: it is none.
+    """
+    address, _, digits = text.rpartition(":")
+    try:
+        ipaddress.IPv4Address(address)
+        port = int(digits)
+    except ValueError:
+        port = 0
+    if not 0 < port < 2**16:
+        raise _NetworkError(
+            "bad_endpoint", f"expected an IPv4 address and a port, such as 10.0.0.2:11811; got {text!r}"
+        )
+    return {"address": address, "port": port}
 
 
-def _fill(template: str, values: dict[str, object]) -> bytes:
-    path = Path(get_package_share_directory("teo_bringup")) / "config" / "network" / template
+def _write(output: Path, template: str, values: dict[str, object]) -> None:
     escaped = {name: escape(str(value)) for name, value in values.items()}
-    return Template(path.read_text(encoding="utf-8")).substitute(escaped).encode()
+    write_atomically(output, xml_template(template).substitute(escaped).encode())
 
 
 _app = typer.Typer(
@@ -109,7 +98,7 @@ def peers(
             ipaddress.IPv4Address(address)
         except ValueError as error:
             raise _NetworkError("bad_address", f"expected an IPv4 address, got {address!r}") from error
-    write_atomically(output, _fill("peers.xml", {}))
+    _write(output, "peers.xml", {})
     _export(
         {
             # Of its own, a node looks on this machine alone, without multicast; the peers come on top.
@@ -129,9 +118,9 @@ def server(
     key: _Key = None,
 ) -> None:
     """This machine runs `discovery_server`, which knows all nodes."""
-    where = _Endpoint.parse(endpoint)
+    where = _endpoint(endpoint)
     files = _certificates(authority, certificate, key)
-    write_atomically(output, _fill("server_tls.xml" if files else "server.xml", where._asdict() | files))
+    _write(output, "server_tls.xml" if files else "server.xml", where | files)
     _export(_FIND_BY_SERVER | {VARIABLE: str(output.resolve())})
 
 
@@ -144,20 +133,20 @@ def client(
     key: _Key = None,
 ) -> None:
     """This machine's nodes ask a discovery server."""
-    where = _Endpoint.parse(endpoint)
+    where = _endpoint(endpoint)
     files = _certificates(authority, certificate, key)
     if not files:  # what ROS 2 has is enough
         _export(
             _FIND_BY_SERVER
             | {
-                "ROS_DISCOVERY_SERVER": f"{where.address}:{where.port}",
+                "ROS_DISCOVERY_SERVER": f"{where['address']}:{where['port']}",
                 "ROS_SUPER_CLIENT": "TRUE",  # nodes and `ros2` see the whole graph
             }
         )
         return
     if output is None:
         raise _NetworkError("no_output", "expected --output FILE with certificates: TLS needs a profile")
-    write_atomically(output, _fill("client_tls.xml", where._asdict() | files))
+    _write(output, "client_tls.xml", where | files)
     _export(_FIND_BY_SERVER | {VARIABLE: str(output.resolve())})
 
 

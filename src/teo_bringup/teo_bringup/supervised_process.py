@@ -31,23 +31,20 @@ class SupervisedProcess:
     the robot beside the one that the next supervisor starts. Start it from the main thread, whose end counts.
     """
 
-    def __init__(self, name: str, command: tuple[str, ...], *, log: Path | None, printed: bool) -> None:
+    def __init__(self, name: str, command: tuple[str, ...], *, log: Path, printed: bool) -> None:
         """Prepare the process; `start` starts it.
 
         Args:
             name: What we call it.
             command: Program and arguments.
-            log: File for what it says, begun anew here. None: kept nowhere.
+            log: File for what it says, begun anew here.
             printed: Whether what it says is printed, each line with its name before it.
         """
         self.name = name
-        self.log = log
         self._command = command
         self._printed = printed
-        self._file: RotatingFileHandler | None = None
-        if log is not None:
-            log.unlink(missing_ok=True)
-            self._file = RotatingFileHandler(log, maxBytes=_LOG_SIZE, backupCount=1, encoding="utf-8")
+        log.unlink(missing_ok=True)
+        self._file = RotatingFileHandler(log, maxBytes=_LOG_SIZE, backupCount=1, encoding="utf-8")
         # systemd's protocol: whoever is started with NOTIFY_SOCKET sends READY=1 there (sd_notify(3)). For an
         # empty name the kernel finds one, without a file.
         self._notes = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM | socket.SOCK_NONBLOCK)
@@ -75,8 +72,7 @@ class SupervisedProcess:
         with output:
             for line in output:
                 text = line.decode(errors="replace").rstrip("\n")
-                if self._file is not None:
-                    self._file.emit(logging.makeLogRecord({"msg": text}))
+                self._file.emit(logging.makeLogRecord({"msg": text}))
                 if self._printed:
                     # One write for each line, so that those of several processes do not mix.
                     print(f"[{self.name}] {text}\n", end="", flush=True)
@@ -116,8 +112,7 @@ class SupervisedProcess:
             status = self._process.wait()
         self.hear_out()
         self._notes.close()
-        if self._file is not None:
-            self._file.close()
+        self._file.close()
         return status
 
     def hear_out(self) -> None:

@@ -14,9 +14,9 @@ from types import FrameType
 from typing import TYPE_CHECKING, Annotated, Literal, NoReturn
 
 import typer
-from ament_index_python.packages import get_package_share_directory
 
 from teo_bringup.graph import NODES, SIGNING, Graph, GraphError
+from teo_common.installed_packages import package_path
 from teo_common.node_process import tell_supervisor
 from teo_common.parameters import ROBOT
 
@@ -65,7 +65,7 @@ def _known(nodes: list[str] | None) -> list[str]:
 
 
 def _shipped_parameters() -> Path:
-    return Path(get_package_share_directory("teo_bringup")) / "config" / "parameters.yaml"
+    return package_path("teo_bringup", "config/parameters.yaml")
 
 
 def _log_folder() -> Path:
@@ -164,14 +164,14 @@ def _raise_told_to_end(number: int, _: FrameType | None) -> NoReturn:
     raise _ToldToEndError(number)
 
 
-def launch_description(*nodes: tuple[str, str]) -> LaunchDescription:
+def launch_description(*nodes: str) -> LaunchDescription:
     """Describe nodes that start together, all in one namespace, and end together.
 
     The arguments `params_file`, `namespace`, `robot`, `language` and `use_sim_time` are declared for
     `ros2 launch`.
 
     Args:
-        nodes: Package and executable of each.
+        nodes: Of `NODES`.
     """
     # Here, as this package is installed where there is no `launch` too: `up` does without it.
     from launch import LaunchDescription
@@ -181,35 +181,27 @@ def launch_description(*nodes: tuple[str, str]) -> LaunchDescription:
 
     from teo_sign_languages import DEFAULT_LANGUAGE
 
-    return LaunchDescription(
-        [
-            *(
-                DeclareLaunchArgument(name, default_value=default, description=_MEANINGS[name])
-                for name, default in (
-                    ("params_file", str(_shipped_parameters())),
-                    ("namespace", ""),
-                    ("robot", str(ROBOT.default)),
-                    ("language", DEFAULT_LANGUAGE),
-                    ("use_sim_time", "false"),
-                )
-            ),
-            *(
-                Node(
-                    package=package,
-                    executable=executable,
-                    namespace=LaunchConfiguration("namespace"),
-                    parameters=[
-                        LaunchConfiguration("params_file"),
-                        {
-                            "robot": LaunchConfiguration("robot"),
-                            "language": LaunchConfiguration("language"),
-                            "use_sim_time": LaunchConfiguration("use_sim_time"),
-                        },
-                    ],
-                    output="screen",
-                    on_exit=Shutdown(reason=f"{executable} ended"),
-                )
-                for package, executable in nodes
-            ),
-        ]
-    )
+    defaults = {
+        "params_file": str(_shipped_parameters()),
+        "namespace": "",
+        "robot": str(ROBOT.default),
+        "language": DEFAULT_LANGUAGE,
+        "use_sim_time": "false",
+    }
+    declared = [
+        DeclareLaunchArgument(name, default_value=default, description=_MEANINGS[name])
+        for name, default in defaults.items()
+    ]
+    of_all_nodes = {name: LaunchConfiguration(name) for name in ("robot", "language", "use_sim_time")}
+    started = [
+        Node(
+            package=package,
+            executable=executable,
+            namespace=LaunchConfiguration("namespace"),
+            parameters=[LaunchConfiguration("params_file"), of_all_nodes],
+            output="screen",
+            on_exit=Shutdown(reason=f"{executable} ended"),
+        )
+        for package, executable in (NODES[name] for name in nodes)
+    ]
+    return LaunchDescription([*declared, *started])

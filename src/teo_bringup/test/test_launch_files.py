@@ -28,30 +28,17 @@ class Recorded:
         self.arguments, self.keywords = arguments, keywords
 
 
-class Node(Recorded):
-    known = frozenset({"package", "executable", "namespace", "parameters", "output", "on_exit"})
+def stand_in(name: str, *known: str) -> type[Recorded]:
+    return type(name, (Recorded,), {"known": frozenset(known)})
 
 
-class DeclareLaunchArgument(Recorded):
-    known = frozenset({"default_value", "description"})
-
-
-class Shutdown(Recorded):
-    known = frozenset({"reason"})
-
-
-class LaunchConfiguration(Recorded):
-    pass
-
-
-class LaunchDescription(Recorded):
-    pass
-
-
+Node = stand_in("Node", "package", "executable", "namespace", "parameters", "output", "on_exit")
+DeclareLaunchArgument = stand_in("DeclareLaunchArgument", "default_value", "description")
+Shutdown = stand_in("Shutdown", "reason")
 STAND_INS = {
-    "launch": {"LaunchDescription": LaunchDescription},
+    "launch": {"LaunchDescription": Recorded},
     "launch.actions": {"DeclareLaunchArgument": DeclareLaunchArgument, "Shutdown": Shutdown},
-    "launch.substitutions": {"LaunchConfiguration": LaunchConfiguration},
+    "launch.substitutions": {"LaunchConfiguration": Recorded},
     "launch_ros": {},
     "launch_ros.actions": {"Node": Node},
 }

@@ -7,6 +7,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -14,6 +15,8 @@ from typed_page import blocks_of
 
 from teo_bringup.graph import executable_of
 from teo_bringup.network import main
+
+Network = Callable[..., dict[str, str]]
 
 PAGE = Path(__file__).parents[3] / "docs" / "machines.md"
 PATIENCE = 120.0  # [s] for Python processes to start and find each other on a loaded machine
@@ -53,18 +56,19 @@ run_node(Talker, None)
 """
 
 
-def network(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
-    command = [str(executable_of("teo_bringup", "network")), *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE, check=False)
+@pytest.fixture
+def network(capsys: pytest.CaptureFixture[str]) -> Network:
+    """Runs `network`; gives what a shell has that sources the printed lines."""
 
+    def run(*arguments: str | Path) -> dict[str, str]:
+        with pytest.raises(SystemExit) as ended:
+            main([*map(str, arguments)])
+        assert ended.value.code == 0
+        shell = ["sh", "-c", f"{capsys.readouterr().out}\nenv -0"]
+        said = subprocess.run(shell, capture_output=True, text=True, check=True, timeout=PATIENCE)
+        return dict(item.split("=", 1) for item in said.stdout.split("\0") if item)
 
-def sourced(done: subprocess.CompletedProcess[str]) -> dict[str, str]:
-    """What a shell has that sources the printed lines."""
-    assert done.returncode == 0, done.stderr
-    said = subprocess.run(
-        ["sh", "-c", f"{done.stdout}\nenv -0"], capture_output=True, text=True, check=True, timeout=PATIENCE
-    )
-    return dict(item.split("=", 1) for item in said.stdout.split("\0") if item)
+    return run
 
 
 @pytest.fixture(scope="module")
@@ -83,10 +87,12 @@ def tls(folder: Path) -> list[str]:
 
 @pytest.mark.usefixtures("domain_id")
 @pytest.mark.slow
-def test_nodes_that_meet_by_a_server_over_tls_have_no_udp_port(certificates: Path, tmp_path: Path) -> None:
+def test_nodes_that_meet_by_a_server_over_tls_have_no_udp_port(
+    network: Network, certificates: Path, tmp_path: Path
+) -> None:
     endpoint = f"127.0.0.1:{15000 + int(os.environ['ROS_DOMAIN_ID'])}"
     made = {
-        kind: sourced(network(kind, endpoint, "--output", tmp_path / f"{kind}.xml", *tls(certificates)))
+        kind: network(kind, endpoint, "--output", tmp_path / f"{kind}.xml", *tls(certificates))
         for kind in ("server", "client")
     }
     with subprocess.Popen(
@@ -109,9 +115,9 @@ def test_nodes_that_meet_by_a_server_over_tls_have_no_udp_port(certificates: Pat
     assert said == ["hears luis udp []\n", "hears ana udp []\n"]
 
 
-def test_peers_come_by_what_ros_2_has_and_no_multicast_is_asked_for(tmp_path: Path) -> None:
+def test_peers_come_by_what_ros_2_has_and_no_multicast_is_asked_for(network: Network, tmp_path: Path) -> None:
     output = tmp_path / "peers.xml"
-    made = sourced(network("peers", "10.0.0.1", "10.0.0.2", "--output", output))
+    made = network("peers", "10.0.0.1", "10.0.0.2", "--output", output)
     assert made["ROS_AUTOMATIC_DISCOVERY_RANGE"] == "LOCALHOST"
     assert made["ROS_STATIC_PEERS"] == "10.0.0.1;10.0.0.2"
     assert made["FASTRTPS_DEFAULT_PROFILES_FILE"] == str(output)
@@ -139,8 +145,8 @@ def test_the_pages_lines_leave_a_shell_that_finds_other_machines(
     assert "192.168.10.3" in done.stdout
 
 
-def test_a_client_without_certificates_needs_no_profile() -> None:
-    made = sourced(network("client", "10.0.0.2:11811"))
+def test_a_client_without_certificates_needs_no_profile(network: Network) -> None:
+    made = network("client", "10.0.0.2:11811")
     assert (made["ROS_DISCOVERY_SERVER"], made["ROS_SUPER_CLIENT"]) == ("10.0.0.2:11811", "TRUE")
 
 

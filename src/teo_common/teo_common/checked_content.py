@@ -8,15 +8,19 @@ import math
 import re
 from collections.abc import Iterator
 from itertools import repeat
+from pathlib import Path
 from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin
 
 import msgspec
+import yaml
 
 Content = TypeVar("Content", bound=msgspec.Struct)
 
 # Characters of a wrong value that are shown.
 _SHOWN = 80
+# Most bytes of a YAML file: 75 times those of the longest that comes with the packages.
+_MOST_BYTES = 1_000_000
 
 #: A key of a mapping, or an index of a list.
 Step = str | int
@@ -41,6 +45,19 @@ class ContentError(ValueError):
         self.got = got
 
 
+class YamlError(ValueError):
+    """A file that cannot be used; its text says which, where, what was expected and what came.
+
+    Attributes:
+        field: Path of the wrong field, such as "hand.palm"; empty where the whole file is to blame.
+    """
+
+    def __init__(self, message: str, field: str = "") -> None:
+        """Keep the field beside the sentence."""
+        super().__init__(message)
+        self.field = field
+
+
 def converted(content: Any, kind: type[Content]) -> Content:
     """Take content as a type.
 
@@ -55,6 +72,30 @@ def converted(content: Any, kind: type[Content]) -> Content:
         return msgspec.convert(content, kind)
     except msgspec.ValidationError as error:
         raise _first_fault(content, kind, error, ()) from error
+
+
+def read_checked_yaml(path: Path, kind: type[Content]) -> Content:
+    """Read a file as a type.
+
+    Args:
+        path: The file.
+        kind: What it holds, of structs, mappings, lists, tuples and plain values, each optional at most.
+
+    Raises:
+        YamlError: The file cannot be read, is no YAML in UTF-8, or does not hold that.
+    """
+    try:
+        size = path.stat().st_size
+        if size > _MOST_BYTES:
+            raise YamlError(f"{path}: expected at most {_MOST_BYTES} bytes, got {size}")
+        content: Any = yaml.load(path.read_text(encoding="utf-8"), Loader=yaml.CSafeLoader)
+    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+        raise YamlError(f"{path}: expected YAML in UTF-8: {error}") from error
+    try:
+        return converted(content, kind)
+    except ContentError as error:
+        field = ".".join(map(str, error.way))
+        raise YamlError(": ".join(filter(None, (str(path), field, str(error)))), field) from error
 
 
 def _first_fault(

@@ -98,16 +98,15 @@ def test_a_node_that_is_told_to_end_is_destroyed_and_ends_well(told: int, domain
         assert process.returncode == 0
 
 
-def test_what_making_the_node_raises_passes_through_with_ros_ended(domain_id: int) -> None:
+@pytest.mark.parametrize(
+    ("program", "said"),
+    [(REFUSED, "no table False\n"), (TOLD_WHILE_MADE, "returned\n")],
+    ids=["it cannot be made", "told to end while it is made"],
+)
+def test_a_node_that_never_spins_leaves_ros_ended_and_says_no_word_of_it(
+    program: str, said: str, domain_id: int
+) -> None:
     environment = os.environ | {"ROS_DOMAIN_ID": str(domain_id)}
-    command = [sys.executable, "-c", REFUSED]
+    command = [sys.executable, "-c", program]
     done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=20.0, check=True)
-    assert done.stdout == "no table False\n"
-
-
-def test_a_node_that_is_told_to_end_before_it_spins_ends_without_a_word(domain_id: int) -> None:
-    environment = os.environ | {"ROS_DOMAIN_ID": str(domain_id)}
-    command = [sys.executable, "-c", TOLD_WHILE_MADE]
-    done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=20.0, check=True)
-    assert done.stdout == "returned\n"
-    assert done.stderr == ""
+    assert (done.stdout, done.stderr) == (said, "")

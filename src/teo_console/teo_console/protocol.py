@@ -16,7 +16,7 @@ import json
 import struct
 from collections.abc import Sequence
 from enum import StrEnum
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import msgspec
 from msgspec import Meta, Struct
@@ -332,26 +332,16 @@ def encode_pose(stamp: float, positions: Sequence[float]) -> bytes:
     return struct.pack(f"<d{len(positions)}f", stamp, *positions)
 
 
-def decode_pose(frame: bytes) -> tuple[float, tuple[float, ...]]:
-    """Read a pose: its time [s], and the positions [rad]."""
-    stamp, *positions = struct.unpack(f"<d{(len(frame) - 8) // 4}f", frame)
-    return stamp, tuple(positions)
-
-
-def schema() -> dict[str, Any]:
-    """Both directions, with the types that they share under `$defs`."""
+def schema_text() -> str:
+    """Both directions as JSON Schema, with the types that they share under `$defs`: the text of its file."""
     (from_page, to_page), definitions = msgspec.json.schema_components((FromPage, ToPage))
-    return {
+    schema = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Messages of the console's websocket",
         "$defs": {**definitions, "FromPage": from_page, "ToPage": to_page},
         "description": "A page sends FromPage, the node ToPage.",
     }
-
-
-def schema_text() -> str:
-    """The schema as its file has it."""
-    return json.dumps(schema(), indent=2, ensure_ascii=False) + "\n"
+    return json.dumps(schema, indent=2, ensure_ascii=False) + "\n"
 
 
 if __name__ == "__main__":

@@ -62,27 +62,19 @@ class _SentenceProgress:
             speed: In force then, 0 to 1.
         """
         self._duration = duration
-        self._progress = Progress(stamp=began, elapsed=0.0, speed=speed)
+        self.told = Progress(stamp=began, elapsed=0.0, speed=speed)
+        """As pages get it."""
 
     def path(self, report: PathReport) -> None:
         """Take what the driver says."""
-        elapsed = self.elapsed(report.stamp)
+        passed = self.told.elapsed + self.told.speed * max(report.stamp - self.told.stamp, 0.0)
+        elapsed = min(passed, self._duration)
         # A trajectory ends with the sentence's motion: what remains of both is the same.
         if report.remaining is not None:
             told = self._duration - report.remaining
             if abs(told - elapsed) <= _SAME_END:
                 elapsed = max(told, 0.0)
-        self._progress = Progress(stamp=report.stamp, elapsed=elapsed, speed=report.speed)
-
-    def elapsed(self, now: float) -> float:
-        """Time since the motion began, in the motion's own seconds [s]."""
-        progress = self._progress
-        passed = progress.elapsed + progress.speed * max(now - progress.stamp, 0.0)
-        return min(passed, self._duration)
-
-    def report(self) -> Progress:
-        """As pages get it."""
-        return self._progress
+        self.told = Progress(stamp=report.stamp, elapsed=elapsed, speed=report.speed)
 
 
 class Sentences:
@@ -102,9 +94,9 @@ class Sentences:
         return self._current
 
     @property
-    def progress(self) -> _SentenceProgress | None:
+    def progress(self) -> Progress | None:
         """How far that is."""
-        return self._progress
+        return None if self._progress is None else self._progress.told
 
     @property
     def history(self) -> tuple[Sentence, ...]:
@@ -126,10 +118,8 @@ class Sentences:
                 self._refuse(report, report.key)
             case "idle":
                 self._end_current()
-            case (
-                _
-            ):  # it waits, is paused, stopped or at fault: what is signed now stays so until more is said
-                pass
+            case _:
+                pass  # it waits, is paused, stopped or at fault: what is signed now stays so
 
     def path(self, report: PathReport) -> None:
         """Take what the driver says of its path."""

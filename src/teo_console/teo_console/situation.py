@@ -42,50 +42,28 @@ class _Heard:
     """What is known of one node."""
 
     present: bool = False
+    """Whether its topic has a publisher."""
     at: float | None = None
+    """When it was heard last [s]."""
     level: Level = Level.OK
     message: str = ""
 
-
-class Liveness:
-    """Keeps when each node was heard last, and what it said of its health."""
-
-    def __init__(self) -> None:
-        """Begin with nobody there."""
-        self._nodes = {role: _Heard() for role in ROLES}
-
-    def seen(self, role: NodeRole, *, present: bool) -> None:
-        """Enter whether the node's topic has a publisher."""
-        self._nodes[role].present = present
-
-    def heard(self, role: NodeRole, now: float) -> None:
-        """Enter that the node has spoken."""
-        self._nodes[role].at = now
-
-    def diagnosed(self, role: NodeRole, level: Level, message: str) -> None:
-        """Enter what the node says of its health."""
-        self._nodes[role].level, self._nodes[role].message = level, message
-
-    def report(self, now: float) -> tuple[Health, ...]:
-        """How each node is."""
-        return tuple(self._health(role, now) for role in ROLES)
-
-    def _health(self, role: NodeRole, now: float) -> Health:
-        node = self._nodes[role]
-        quiet = 0.0 if node.at is None else max(now - node.at, 0.0)
+    def health(self, role: NodeRole, now: float) -> Health:
+        """How the node of a role is."""
+        quiet = 0.0 if self.at is None else max(now - self.at, 0.0)
         state: NodeState
-        if not node.present:
+        if not self.present:
             state = "missing"
-        elif node.at is None or quiet > _SILENCE[role]:
+        elif self.at is None or quiet > _SILENCE[role]:
             state = "silent"
-        elif node.level is not Level.OK:
+        elif self.level is not Level.OK:
             state = "unwell"
         else:
             state = "alive"
         return Health(
             role=role,
             state=state,
-            message=node.message if state == "unwell" else "",
+            message=self.message if state == "unwell" else "",
             # Whole seconds: what is shown, and no reason to tell all pages the same thing ten times a second.
             quiet=float(int(quiet)) if state in ("silent", "missing") else 0.0,
         )
@@ -156,7 +134,7 @@ class SharedSituation:
     def __init__(self) -> None:
         """Begin with nobody heard."""
         self.spoken = SpokenTexts()
-        self._liveness = Liveness()
+        self._nodes = {role: _Heard() for role in ROLES}
         self._sentences = Sentences()
         self._queue: tuple[Queued, ...] = ()
         self._refusal: Refusal | None = None
@@ -172,19 +150,21 @@ class SharedSituation:
 
     def publishers(self, role: NodeRole, *, present: bool) -> None:
         """Enter whether anybody publishes a node's topic."""
-        self._liveness.seen(role, present=present)
+        self._nodes[role].present = present
 
     def joints(self, now: float) -> None:
         """A joint state has come."""
-        self._liveness.heard("driver", now)
+        self._nodes["driver"].at = now
 
     def diagnosis(self, name: str, level: Level, message: str, now: float) -> None:
         """Take one status of `diagnostics`; those of others are passed over."""
         role = diagnosed_node(name)
-        if role is not None:
-            if role != "driver":  # whose joint states tell sooner
-                self._liveness.heard(role, now)
-            self._liveness.diagnosed(role, level, message)
+        if role is None:
+            return
+        node = self._nodes[role]
+        if role != "driver":  # whose joint states tell sooner
+            node.at = now
+        node.level, node.message = level, message
 
     def tokens(self, sentence: Sentence) -> None:
         """Take a sentence of the translator's."""
@@ -224,13 +204,12 @@ class SharedSituation:
             now: Time [s].
             pages: Pages that are open.
         """
-        progress = self._sentences.progress
         return Situation(
             stamp=now,
-            nodes=self._liveness.report(now),
+            nodes=tuple(node.health(role, now) for role, node in self._nodes.items()),
             robot=self._robot,
             current=self._sentences.current,
-            progress=None if progress is None else progress.report(),
+            progress=self._sentences.progress,
             queue=self._queue,
             history=self._sentences.history,
             spoken=self.spoken.waiting,

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import asyncio
+import inspect
 import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -21,6 +23,27 @@ PATIENCE = 90_000  # [ms] for what a page waits for, likewise
 expect.set_options(timeout=PATIENCE)
 
 NewPage = Callable[..., Page]
+
+# Time for a test that is a coroutine [s]: a few seconds on an idle machine.
+LONGEST = 60.0
+
+
+@pytest.fixture
+def runner() -> Iterator[asyncio.Runner]:
+    """The event loop of a test that is a coroutine, for its fixtures."""
+    with asyncio.Runner() as runner:
+        yield runner
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
+    """Run a test that is a coroutine in the loop of the fixture `runner`, which it or a fixture asks for."""
+    if not inspect.iscoroutinefunction(pyfuncitem.function):
+        return None
+    names = inspect.signature(pyfuncitem.function).parameters
+    test = pyfuncitem.function(**{name: pyfuncitem.funcargs[name] for name in names})
+    pyfuncitem.funcargs["runner"].run(asyncio.wait_for(test, LONGEST))
+    return True
 
 
 @pytest.fixture(scope="module")

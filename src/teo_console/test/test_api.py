@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -31,27 +32,44 @@ def recordings(api: Api) -> list[Path]:
     return [path for path in api.folders.cache.glob("recordings-*/*") if path.is_dir()]
 
 
-def test_a_reviewer_says_what_it_was_before_reading_it_and_the_export_has_it(api: Api) -> None:
+def test_a_reviewer_says_what_it_was_before_reading_it_once_and_the_export_has_it(api: Api) -> None:
     series = api.add_series("review", "CASA")
-    status, asked = api.ask("POST", f"/api/series/{series}/next", {"reviewer": "Ana"})
+
+    def next_question() -> Any:
+        return api.ask("POST", f"/api/series/{series}/next", {"reviewer": "Ana"})
+
+    status, asked = next_question()
     assert status == 200
     assert "CASA" not in json.dumps(asked)
-    item = asked["question"]["item"]
-    rating = {"reviewer": "Ana", "rating": "right", "flags": ["palm"], "comment": "<b>bien</b>"}
-    status, refused = api.ask("POST", f"/api/items/{item}/rating", rating)
+    item = f"/api/items/{asked['question']['item']}"
+    rating = {"reviewer": "Ana", "rating": "wrong", "flags": ["palm"], "comment": "<b>bien</b>"}
+    status, refused = api.ask("POST", f"{item}/rating", rating)
     assert (status, refused["code"]) == (409, "not_answered")
-    assert api.ask("POST", f"/api/items/{item}/answer", {"reviewer": "Ana", "understood": "casa"}) == (
-        200,
-        {"meaning": "CASA"},
-    )
-    assert api.ask("POST", f"/api/items/{item}/rating", rating)[0] == 200
-    assert api.ask("POST", f"/api/series/{series}/next", {"reviewer": "Ana"}) == (200, {"question": None})
+    answer = {"reviewer": "Ana", "understood": "casa"}
+    assert api.ask("POST", f"{item}/answer", answer) == (200, {"meaning": "CASA"})
+    status, refused = api.ask("POST", f"{item}/answer", answer)
+    assert (status, refused["code"]) == (409, "answered")
+    # Until it is rated it stays, also for who opens the page anew.
+    again = next_question()[1]["question"]
+    assert again == asked["question"] | {"understood": "casa", "meaning": "CASA"}
+    for thought in (rating, rating | {"rating": "right"}):
+        assert api.ask("POST", f"{item}/rating", thought)[0] == 200
+    assert next_question() == (200, {"question": None})
     _, exported = api.ask("GET", "/api/reviews.json")
-    (answer,) = exported["answers"]
-    assert (answer["reviewer"], answer["rating"], answer["recognised"]) == ("Ana", "right", True)
+    (said,) = exported["answers"]
+    assert (said["reviewer"], said["rating"], said["recognised"]) == ("Ana", "right", True)
     _, figures = api.ask("GET", f"/api/series/{series}/report")
     assert figures["recognised"][0] == 1.0
     assert len(figures["anchors"]) == 3
+
+
+def test_a_comprehension_test_takes_one_of_its_choices_and_tells_nothing(api: Api) -> None:
+    series = api.add_series("comprehension", "CASA", choices=("CASA", "CALLE"))
+    _, asked = api.ask("POST", f"/api/series/{series}/next", {"reviewer": "Ana"})
+    path = f"/api/items/{asked['question']['item']}/answer"
+    status, refused = api.ask("POST", path, {"reviewer": "Ana", "understood": "none of these"})
+    assert (status, refused["code"]) == (400, "bad_answer")
+    assert api.ask("POST", path, {"reviewer": "Ana", "understood": "CALLE"}) == (200, {"meaning": None})
 
 
 def test_what_was_said_of_another_language_or_robot_is_kept_apart(api: Api) -> None:
@@ -77,6 +95,7 @@ def test_what_was_said_of_another_language_or_robot_is_kept_apart(api: Api) -> N
         ("POST", "/api/series/nowhere/next", {"reviewer": "Ana"}, 404, "unknown_series"),
         ("GET", "/api/series/nowhere/report", None, 404, "unknown_series"),
         ("POST", "/api/items/x/answer", {"reviewer": "\x00", "understood": ""}, 400, "bad_name"),
+        ("POST", "/api/items/x/answer", {"reviewer": "Ana", "understood": ""}, 404, "unknown_item"),
         ("GET", "/api/jobs/nobody", None, 404, "unknown_job"),
         ("DELETE", "/api/jobs/nobody", None, 404, "unknown_job"),
         ("GET", "/api/films/..%2F..%2Freviews.sqlite", None, 404, "unknown_sign"),
@@ -131,13 +150,16 @@ def test_a_film_is_kept_under_a_name_that_leaves_no_folder(api: Api) -> None:
     assert Path(answer["kept"]).read_bytes() == BAG
 
 
-def test_recordings_of_a_console_that_was_killed_are_deleted(tmp_path: Path) -> None:
-    left = tmp_path / "cache" / "recordings-4194305" / "abc" / "film.webm"  # above the kernel's last number
+# Above the kernel's last number; and our own, which a console before may have had.
+@pytest.mark.parametrize("process", [4194305, os.getpid()])
+def test_recordings_of_a_console_that_was_killed_are_deleted(process: int, tmp_path: Path) -> None:
+    left = tmp_path / "cache" / f"recordings-{process}" / "abc" / "film.webm"
     left.parent.mkdir(parents=True)
     left.touch()
     api = Api(tmp_path)
+    remains = left.exists()
     api.thread.close()
-    assert not left.exists()
+    assert not remains
 
 
 def test_drawings_and_no_other_file_are_given_out_under_the_page_s_rules(api: Api) -> None:

@@ -8,9 +8,8 @@ import asyncio
 import json
 import xml.etree.ElementTree as ET
 import zlib
-from collections.abc import AsyncIterator, Callable, Coroutine
+from collections.abc import AsyncIterator, Callable, Iterator
 from contextlib import asynccontextmanager
-from functools import wraps
 from pathlib import Path
 from typing import Any
 
@@ -25,9 +24,14 @@ from teo_console.server.app import drawable_urdf, make_app
 from teo_console.server.hub import Hub
 from teo_console.server.thread import ServerThread
 
+pytestmark = pytest.mark.usefixtures("runner")
 WEB = Path(__file__).parents[1] / "web"
 PATIENCE = 20.0  # [s] for an answer on a loaded machine
 CROWD = 50
+
+
+LOCAL = Access.for_address("127.0.0.1", frozenset())
+WIDE = Access.for_address("0.0.0.0", frozenset({"127.0.0.1", "lab.example"}))
 
 
 async def done(asked: FromPage) -> Answer:
@@ -37,9 +41,8 @@ async def done(asked: FromPage) -> Answer:
 class Server:
     """A server on a free port, with a hub that says yes to everything."""
 
-    def __init__(self, access: Access, serve: Callable[[FromPage], Any] = done) -> None:
-        self.pages: list[int] = []
-        self.hub = Hub(serve, self.pages.append)
+    def __init__(self, access: Access = LOCAL, serve: Callable[[FromPage], Any] = done) -> None:
+        self.hub = Hub(serve)
         self.access = access
         self.thread = ServerThread(
             lambda: make_app(web_folder=WEB, access=access, hub=self.hub, urdf=lambda: "<robot/>"),
@@ -54,26 +57,22 @@ class Server:
             yield socket
 
 
-def with_server(
-    test: Callable[[Server, aiohttp.ClientSession], Coroutine[Any, Any, None]],
-) -> Callable[[], None]:
-    """Run a coroutine against a server that only this machine reaches."""
+@pytest.fixture
+def server(request: pytest.FixtureRequest) -> Iterator[Server]:
+    """One that only this machine reaches, or made with what a test asks for."""
+    opened = Server(**getattr(request, "param", {}))
+    yield opened
+    opened.thread.close()
 
-    @wraps(test)
-    def run() -> None:
-        server = Server(Access.for_address("127.0.0.1", frozenset()))
 
-        async def with_session() -> None:
-            async with aiohttp.ClientSession() as session:
-                await asyncio.wait_for(test(server, session), PATIENCE)
+@pytest.fixture
+def session(runner: asyncio.Runner) -> Iterator[aiohttp.ClientSession]:
+    async def opened() -> aiohttp.ClientSession:
+        return aiohttp.ClientSession()
 
-        try:
-            asyncio.run(with_session())
-        finally:
-            server.thread.close()
-
-    del run.__wrapped__  # type: ignore[attr-defined]  # pytest would ask for fixtures of its arguments' names
-    return run
+    made = runner.run(opened())
+    yield made
+    runner.run(made.close())
 
 
 async def answer_of(socket: aiohttp.ClientWebSocketResponse) -> dict[str, Any]:
@@ -85,7 +84,6 @@ async def answer_of(socket: aiohttp.ClientWebSocketResponse) -> dict[str, Any]:
             return told
 
 
-@with_server
 async def test_the_page_comes_with_headers_that_let_it_load_nothing_from_elsewhere(
     server: Server, session: aiohttp.ClientSession
 ) -> None:
@@ -98,8 +96,7 @@ async def test_the_page_comes_with_headers_that_let_it_load_nothing_from_elsewhe
             assert response.headers["X-Content-Type-Options"] == "nosniff"
 
 
-@with_server
-async def test_what_the_page_loads_is_sent_compressed(server: Server, _: aiohttp.ClientSession) -> None:
+async def test_what_the_page_loads_is_sent_compressed(server: Server) -> None:
     paths = [path for path in WEB.rglob("*") if path.suffix in (".js", ".css", ".json", ".svg")]
     sent = 0
     async with aiohttp.ClientSession(auto_decompress=False) as session:
@@ -112,10 +109,7 @@ async def test_what_the_page_loads_is_sent_compressed(server: Server, _: aiohttp
     assert sent < sum(path.stat().st_size for path in paths) / 3
 
 
-@with_server
-async def test_what_the_browser_has_is_told_without_a_body_and_the_connection_goes_on(
-    server: Server, _: aiohttp.ClientSession
-) -> None:
+async def test_what_the_browser_has_is_told_without_a_body_and_the_connection_goes_on(server: Server) -> None:
     host = server.url.removeprefix("http://")
     reader, writer = await asyncio.open_connection(*host.split(":"))
 
@@ -144,7 +138,6 @@ async def test_what_the_browser_has_is_told_without_a_body_and_the_connection_go
     writer.close()
 
 
-@with_server
 async def test_no_file_outside_the_page_is_given_out(server: Server, session: aiohttp.ClientSession) -> None:
     for path in ("/../setup.py", "/%2e%2e/setup.py", "/js/..%2f..%2fsetup.py", "//etc/passwd", "/js/"):
         url = aiohttp.client.URL(server.url + path, encoded=True)
@@ -152,7 +145,6 @@ async def test_no_file_outside_the_page_is_given_out(server: Server, session: ai
             assert response.status in (403, 404), path
 
 
-@with_server
 async def test_another_host_name_is_refused(server: Server, session: aiohttp.ClientSession) -> None:
     for host in ("evil.example", f"evil.example:{server.thread.port}", "127.0.0.1.evil.example", "", "[::1"):
         async with session.get(server.url, headers={"Host": host}) as response:
@@ -160,7 +152,6 @@ async def test_another_host_name_is_refused(server: Server, session: aiohttp.Cli
             assert (await response.json())["code"] == "bad_host"
 
 
-@with_server
 async def test_a_page_of_another_site_reaches_nothing(server: Server, session: aiohttp.ClientSession) -> None:
     origins = ("http://evil.example", "null", f"http://localhost:{server.thread.port}", "http://127.0.0.1:1")
     for origin in origins:
@@ -173,7 +164,6 @@ async def test_a_page_of_another_site_reaches_nothing(server: Server, session: a
         await session.ws_connect(f"{server.url}/ws")  # no browser, or one that hides where it is
 
 
-@with_server
 async def test_what_makes_no_sense_is_answered_and_at_last_shut_out(
     server: Server, session: aiohttp.ClientSession
 ) -> None:
@@ -194,7 +184,6 @@ async def test_what_makes_no_sense_is_answered_and_at_last_shut_out(
         assert message.type in (WSMsgType.CLOSE, WSMsgType.CLOSING, WSMsgType.CLOSED)
 
 
-@with_server
 async def test_a_message_that_is_too_large_ends_the_connection_and_nothing_else(
     server: Server, session: aiohttp.ClientSession
 ) -> None:
@@ -209,7 +198,6 @@ async def test_a_message_that_is_too_large_ends_the_connection_and_nothing_else(
         assert (await answer_of(page))["success"]
 
 
-@with_server
 async def test_a_flood_is_slowed_down_with_a_reason(server: Server, session: aiohttp.ClientSession) -> None:
     async with server.page(session) as page:
         for number in range(100):
@@ -219,7 +207,6 @@ async def test_a_flood_is_slowed_down_with_a_reason(server: Server, session: aio
     assert sum(answer["code"] == "too_fast" for answer in answers) >= 30
 
 
-@with_server
 async def test_fifty_pages_get_the_same_and_one_that_does_not_read_holds_nobody_up(
     server: Server, session: aiohttp.ClientSession
 ) -> None:
@@ -235,68 +222,54 @@ async def test_fifty_pages_get_the_same_and_one_that_does_not_read_holds_nobody_
             message = await page.receive(PATIENCE)
             if message.type is WSMsgType.TEXT and json.loads(message.data).get("number") == 19:
                 break
-    assert server.pages[-1] == CROWD
+    assert server.hub.pages == CROWD
     for page in pages:
         await page.close()
-    while server.pages[-1]:
+    while server.hub.pages:
         await asyncio.sleep(0.01)
 
 
-def test_an_order_does_not_wait_for_what_was_asked_before() -> None:
-    async def serve(asked: FromPage) -> Answer:
-        if asked.id == 1:
-            await asyncio.Event().wait()
-        return await done(asked)
-
-    async def visit() -> None:
-        async with aiohttp.ClientSession() as session, server.page(session) as page:
-            await page.send_str('{"type":"get_sign","id":1,"gloss":"HOLA"}')
-            await page.send_str('{"type":"command","id":2,"order":"stop"}')
-            assert (await answer_of(page))["id"] == 2
-
-    server = Server(Access.for_address("127.0.0.1", frozenset()), serve)
-    try:
-        asyncio.run(asyncio.wait_for(visit(), PATIENCE))
-    finally:
-        server.thread.close()
+async def never_the_first(asked: FromPage) -> Answer:
+    if asked.id == 1:
+        await asyncio.Event().wait()
+    return await done(asked)
 
 
-def test_listening_wider_takes_the_token_of_the_link() -> None:
-    access = Access.for_address("0.0.0.0", frozenset({"127.0.0.1", "lab.example"}))
-    assert access.token is not None
-    server = Server(access)
+@pytest.mark.parametrize("server", [{"serve": never_the_first}], indirect=True)
+async def test_an_order_does_not_wait_for_what_was_asked_before(
+    server: Server, session: aiohttp.ClientSession
+) -> None:
+    async with server.page(session) as page:
+        await page.send_str('{"type":"get_sign","id":1,"gloss":"HOLA"}')
+        await page.send_str('{"type":"command","id":2,"order":"stop"}')
+        assert (await answer_of(page))["id"] == 2
 
-    async def visit() -> None:
-        async with aiohttp.ClientSession() as stranger:
-            async with stranger.get(server.url) as response:
-                assert response.status == 401
-                assert (await response.json())["code"] == "no_token"
-            async with stranger.get(f"{server.url}/?token=wrong") as response:
-                assert response.status == 401
-            with pytest.raises(aiohttp.WSServerHandshakeError):
-                await stranger.ws_connect(f"{server.url}/ws", origin=server.url)
-        # A browser that was here before: the server has another token since it was started again.
-        jar, old = aiohttp.CookieJar(unsafe=True), {"teo_console": "of yesterday"}
-        async with aiohttp.ClientSession(cookie_jar=jar, cookies=old) as guest:
-            link = access.link("127.0.0.1", server.thread.port)
-            async with guest.get(server.url) as response:
-                assert response.status == 401
-            async with guest.get(link) as response:
-                assert response.status == 200
-                assert "token" not in str(response.url)  # it is not left in the history or in what is copied
-            async with server.page(guest) as page:
-                await page.send_str('{"type":"command","id":1,"order":"pause"}')
-                assert (await answer_of(page))["success"]
 
-    try:
-        asyncio.run(asyncio.wait_for(visit(), PATIENCE))
-    finally:
-        server.thread.close()
+@pytest.mark.parametrize("server", [{"access": WIDE}], indirect=True)
+async def test_listening_wider_takes_the_token_of_the_link(
+    server: Server, session: aiohttp.ClientSession
+) -> None:
+    for path in ("", "/?token=wrong"):
+        async with session.get(server.url + path) as response:
+            assert response.status == 401
+            assert (await response.json())["code"] == "no_token"
+    with pytest.raises(aiohttp.WSServerHandshakeError):
+        await session.ws_connect(f"{server.url}/ws", origin=server.url)
+    # A browser that was here before: the server has another token since it was started again.
+    jar, old = aiohttp.CookieJar(unsafe=True), {"teo_console": "of yesterday"}
+    async with aiohttp.ClientSession(cookie_jar=jar, cookies=old) as guest:
+        async with guest.get(server.url) as response:
+            assert response.status == 401
+        async with guest.get(server.access.link("127.0.0.1", server.thread.port)) as response:
+            assert response.status == 200
+            assert "token" not in str(response.url)  # it is not left in the history or in what is copied
+        async with server.page(guest) as page:
+            await page.send_str('{"type":"command","id":1,"order":"pause"}')
+            assert (await answer_of(page))["success"]
 
 
 def test_this_machine_alone_takes_no_token_and_tokens_differ() -> None:
-    assert Access.for_address("127.0.0.1", frozenset()).token is None
-    assert Access.for_address("::1", frozenset()).token is None
+    assert [Access.for_address(own, frozenset()).token for own in ("127.0.0.1", "::1")] == [None, None]
     tokens = {Access.for_address("0.0.0.0", frozenset()).token for _ in range(20)}
     assert len(tokens) == 20
 
@@ -307,14 +280,10 @@ def test_an_address_that_is_none_is_refused() -> None:
     assert refused.value.code == "bad_address"
 
 
-def test_a_port_that_is_taken_is_named() -> None:
-    server = Server(Access.for_address("127.0.0.1", frozenset()))
-    try:
-        with pytest.raises(ConsoleError, match=str(server.thread.port)) as refused:
-            ServerThread(aiohttp.web.Application, "127.0.0.1", server.thread.port)
-        assert refused.value.code == "port_taken"
-    finally:
-        server.thread.close()
+def test_a_port_that_is_taken_is_named(server: Server) -> None:
+    with pytest.raises(ConsoleError, match=str(server.thread.port)) as refused:
+        ServerThread(aiohttp.web.Application, "127.0.0.1", server.thread.port)
+    assert refused.value.code == "port_taken"
 
 
 def test_a_robot_of_meshes_is_drawn_by_its_plain_shapes() -> None:

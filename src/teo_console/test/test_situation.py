@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from teo_common.diagnostics import Level
 from teo_console.errors import ConsoleError
-from teo_console.protocol import Caption, ExecutorState, Refusal, Sentence, Situation
+from teo_console.protocol import Caption, ExecutorState, Sentence, Situation
 from teo_console.sentences import HISTORY, PathReport, SigningReport
 from teo_console.situation import SharedSituation
 
@@ -97,16 +97,6 @@ def test_a_sentence_is_announced_signed_and_history(situation: SharedSituation) 
     assert [(past.text, past.state) for past in after.history] == [("Hola.", "signed")]
 
 
-def test_the_next_sentence_of_a_text_ends_the_one_before(situation: SharedSituation) -> None:
-    for index in (0, 1):
-        situation.tokens(replace(SENTENCE, index=index, text=f"{index}."))
-        situation.executor(report("signing", index))
-    now = shown(situation)
-    assert now.current is not None
-    assert now.current.text == "1."
-    assert [past.text for past in now.history] == ["0."]
-
-
 def test_a_refused_sentence_is_history_with_its_reason(situation: SharedSituation) -> None:
     situation.tokens(SENTENCE)
     situation.executor(report("signing"))
@@ -126,23 +116,22 @@ def test_a_pause_keeps_the_sentence(situation: SharedSituation) -> None:
     assert current.captions == (TIMED,)
 
 
-def test_history_is_bounded_and_the_newest_is_first(situation: SharedSituation) -> None:
+def test_the_next_sentence_ends_the_one_before_in_a_history_that_is_bounded_the_newest_first(
+    situation: SharedSituation,
+) -> None:
     for index in range(HISTORY + 5):
+        situation.tokens(replace(SENTENCE, index=index, text=f"{index}."))
         situation.executor(report("signing", index))
-    history = shown(situation).history
-    assert len(history) == HISTORY
-    assert [past.index for past in history[:2]] == [HISTORY + 3, HISTORY + 2]
+    now = shown(situation)
+    assert now.current is not None
+    assert now.current.text == f"{HISTORY + 4}."
+    assert [past.text for past in now.history] == [f"{index}." for index in range(HISTORY + 3, 3, -1)]
 
 
 def elapsed(situation: SharedSituation, now: float) -> float:
     progress = shown(situation, now).progress
     assert progress is not None
     return progress.elapsed + progress.speed * (now - progress.stamp)
-
-
-def test_progress_goes_with_the_clock_until_the_driver_speaks(situation: SharedSituation) -> None:
-    situation.executor(report("signing", stamp=100.0))
-    assert elapsed(situation, 103.0) == pytest.approx(3.0)
 
 
 def test_progress_follows_the_drivers_path_its_pace_and_its_pause(situation: SharedSituation) -> None:
@@ -186,9 +175,3 @@ def test_of_much_speech_the_latest_waits(situation: SharedSituation) -> None:
     for number in range(20):
         situation.spoken.hear(f"frase {number}")
     assert [spoken.text for spoken in shown(situation).spoken] == [f"frase {n}" for n in range(15, 20)]
-
-
-def test_a_refused_text_is_told(situation: SharedSituation) -> None:
-    refusal = Refusal(stamp=1.0, text="你好", code="unsignable_text", message="no")
-    situation.refused_text(refusal)
-    assert shown(situation).refusal == refusal

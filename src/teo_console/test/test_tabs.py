@@ -1,12 +1,10 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Dictionary, Teach, Practise and Review in a browser, before the real nodes and commands."""
+"""Teach and Practise in a browser, before the real nodes and commands."""
 
 from __future__ import annotations
 
-import json
 import re
-import urllib.request
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 from pathlib import Path
@@ -104,66 +102,3 @@ def practised(page: Page, word: str, film: Path) -> str | None:
     page.set_input_files("#film-file", film)
     expect(page.locator("[data-verdict]")).to_be_visible(timeout=LONG)
     return page.locator("[data-verdict]").get_attribute("data-verdict")
-
-
-@pytest.mark.slow
-def test_signs_are_reviewed_blind_and_the_export_says_how(
-    new_page: NewPage, address: str, pictures: Path
-) -> None:
-    page = new_page(tab="review")
-    page.fill("#new-title", "Dos")
-    page.fill("#new-glosses", "casa\ntornillo\nmadre")
-    page.click("form button[type=submit]")
-    expect(page.locator("#notice")).to_contain_text("tornillo", timeout=LONG)
-    page.fill("#new-glosses", "casa\nmadre")
-    page.select_option("#new-choices", "")
-    page.click("form button[type=submit]")
-    row = page.locator("[data-series]").filter(has_text="Dos")
-    expect(row).to_be_visible(timeout=LONG)
-    accessible(page)
-    photograph(page, pictures, "review")
-    series = row.get_attribute("data-series")
-    page.goto(f"{address}#review/{series}")
-    page.fill("#reviewer", "Ana")
-    page.click("form button[type=submit]")
-    for number in (1, 2):
-        expect(page.locator("h2")).to_have_text(re.compile(f"{number}.*2"))
-        assert not re.search("CASA|MADRE", page.locator("main").inner_text())
-        page.fill("#understood", "casa")
-        page.click("form button[type=submit]")
-        expect(page.locator(".meaning")).to_be_visible()
-        if number == 1:
-            accessible(page)
-            photograph(page, pictures, "reviewing")
-        is_house = "CASA" in page.locator(".meaning").inner_text()
-        page.click("form button[type=submit]")
-        expect(page.locator("#notice")).to_have_text("Di antes cómo lo hace: correcto, se entiende o mal.")
-        page.check("#rating-right" if is_house else "#rating-wrong")
-        page.check("#flag-movement")
-        page.fill("#comment", "<img src=x onerror=alert(1)>")  # shown as text, or the page fails the test
-        page.click("form button[type=submit]")
-    expect(page.locator("#all-done")).to_be_visible()
-    with urllib.request.urlopen(f"{address}api/reviews.json") as response:
-        exported = json.load(response)
-    said = {answer["gloss"]: answer for answer in exported["answers"] if answer["series"] == series}
-    assert said.keys() == {"CASA", "MADRE"}
-    assert (said["CASA"]["rating"], said["CASA"]["recognised"]) == ("right", True)
-    assert (said["MADRE"]["rating"], said["MADRE"]["recognised"]) == ("wrong", False)
-    assert said["MADRE"]["flags"] == ["movement"]
-    page.goto(f"{address}#review/{series}/report")
-    expect(page.locator("table")).to_contain_text("onerror")
-    expect(page.locator("dl")).to_contain_text("50 %")
-    accessible(page)
-    photograph(page, pictures, "report")
-
-
-@pytest.mark.parametrize("language", ["es", "en"])
-def test_every_word_of_the_tabs_is_there_in_both_languages(language: str) -> None:
-    web = Path(__file__).parents[1] / "web"
-    words = json.loads((web / "i18n" / f"{language}.tabs.json").read_text("utf-8"))
-    frame = json.loads((web / "i18n" / f"{language}.json").read_text("utf-8"))
-    assert not words.keys() & frame.keys()
-    scripts = [*(web / "js" / "tabs").glob("*.js"), *(web / "js").glob("[prt]*/*.js")]
-    asked = {key for path in scripts for key in re.findall(r'\bt\("([\w.]+)"', path.read_text("utf-8"))}
-    assert len(asked) > 100
-    assert asked <= words.keys() | frame.keys(), asked - words.keys() - frame.keys()

@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 
 import msgspec
 
-from teo_common.checked_yaml import YamlError, read_checked_yaml
+from teo_common.checked_content import YamlError, read_checked_yaml
 from teo_description.errors import DescriptionError
 from teo_description.robot_schema import (
     CameraView,

@@ -10,7 +10,7 @@ from typing import Annotated, Literal
 
 import msgspec
 
-from teo_common.checked_yaml import YamlError, read_checked_yaml
+from teo_common.checked_content import YamlError, read_checked_yaml
 from teo_common.errors import CodedError
 from teo_common.text_folding import without_accents
 

@@ -45,7 +45,7 @@ class Api:
 
     def _app(self) -> web.Application:
         self.workbench = Workbench(self.folders, Commands(robot="teo", language="ssp"))
-        hub = Hub(lambda asked: asyncio.sleep(0, Answer(id=asked.id, success=True)), lambda _: None)
+        hub = Hub(lambda asked: asyncio.sleep(0, Answer(id=asked.id, success=True)))
         hub.welcome(encode(Welcome(names=NAMES, joints=(), robot=False)))
         access = Access.for_address("127.0.0.1", frozenset())
         routes = all_routes(self.workbench)

@@ -7,6 +7,7 @@ from __future__ import annotations
 import io
 import json
 import re
+import struct
 import time
 from itertools import pairwise
 from pathlib import Path
@@ -16,8 +17,6 @@ from axe_playwright_python.sync_playwright import Axe
 from numpy.typing import NDArray
 from PIL import Image
 from playwright.sync_api import Page, WebSocket, expect
-
-from teo_console.protocol import decode_pose
 
 PATIENCE = 90.0  # [s] for what a page shows, on a loaded machine
 DIFFERENT = 3.0  # mean difference of two pictures' pixels, of 255, above which they show different things
@@ -56,7 +55,8 @@ class Poses:
 
     def _take(self, payload: str | bytes) -> None:
         if isinstance(payload, bytes):
-            self.heard.append(decode_pose(payload))
+            stamp, *positions = struct.unpack(f"<d{(len(payload) - 8) // 4}f", payload)
+            self.heard.append((stamp, tuple(positions)))
 
     def farthest(self, since: float = 0.0) -> float:
         """How far any joint has moved since a time of the node's [rad]."""

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import datetime
 import json
+import time
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -44,7 +45,7 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
 
     async def receive(request: web.Request) -> Any:
         recording = await workbench.recordings.receive(
-            request.content.iter_chunked(64 * 1024), workbench.now()
+            request.content.iter_chunked(64 * 1024), time.monotonic()
         )
         return {"recording": recording.id, "figures": recording.figures}
 

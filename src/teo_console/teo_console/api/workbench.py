@@ -204,7 +204,7 @@ class Workbench:
         self._tables: dict[Commands, Table] = {}
         self.use(commands)
         self.preparations: dict[str, Preparation] = {}
-        self._tasks: set[asyncio.Task[None]] = set()
+        self._preparing: asyncio.Task[None] | None = None
 
     @property
     def table(self) -> Table:
@@ -226,17 +226,13 @@ class Workbench:
             )
         self._table = self._tables[commands]
 
-    def now(self) -> float:
-        """The time by which ages are told [s]."""
-        return time.monotonic()
-
-    def prepare(self, name: str, total: int, work: Callable[[Preparation], Awaitable[str]]) -> Preparation:
+    def prepare(self, name: str, total: int, work: Callable[[Preparation], Awaitable[str]]) -> None:
         """Begin something that takes a while; its result is what the work returns.
 
         Raises:
             ConsoleError: "busy": something is being prepared already.
         """
-        if self._tasks:
+        if self._preparing is not None and not self._preparing.done():
             raise ConsoleError("busy", "expected one series to be prepared at a time: wait for the other")
         preparation = self.preparations[name] = Preparation(total)
 
@@ -246,15 +242,12 @@ class Workbench:
             except ConsoleError as error:
                 preparation.code, preparation.message = error.code, str(error)
 
-        task = asyncio.create_task(go())
-        self._tasks.add(task)
-        task.add_done_callback(self._tasks.discard)
-        return preparation
+        self._preparing = asyncio.create_task(go())
 
     async def close(self) -> None:
         """End whatever runs and delete what nobody kept."""
-        for task in self._tasks:
-            task.cancel()
+        if self._preparing is not None:
+            self._preparing.cancel()
         await self.jobs.close()
         await self.lookups.close()
         self.recordings.close()

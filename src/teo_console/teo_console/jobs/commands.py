@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
@@ -36,7 +36,7 @@ class Command:
 
     name: str
     arguments: tuple[str, ...]
-    limits: Limits = field(default_factory=Limits)
+    limits: Limits = Limits()
 
 
 # Of a film of half a minute, on a busy machine [s]; three seconds take ten on an idle one.

@@ -51,22 +51,20 @@ class Progress:
 class Job:
     """One run of a command. Fields change as it goes; `ended` is set when nothing will change any more."""
 
-    def __init__(self, command: Command, number: int, then: Callable[[], None]) -> None:
+    def __init__(self, command: Command, then: Callable[[], None]) -> None:
         """A job that waits.
 
         Args:
             command: What to run.
-            number: Counts the jobs of the queue.
             then: To be called when it has run.
         """
         self.id = secrets.token_urlsafe(12)  # who has it may look at it and cancel it
         self.command = command
-        self.number = number
         self.then = then
         self.state: _State = "waiting"
         self.progress = Progress()
         self.result: Any = None
-        """The last JSON value that the command printed."""
+        """The last line that the command printed, if that is JSON."""
         self.output = ""
         """All that it printed on standard output."""
         self.code = ""
@@ -78,6 +76,10 @@ class Job:
     def is_over(self) -> bool:
         """Whether it ended, in whatever way."""
         return self.state in ("done", "failed", "cancelled")
+
+    def fail(self, code: str, message: str) -> None:
+        """Enter why it failed."""
+        self.state, self.code, self.message = "failed", code, message
 
     def told(self, ahead: int) -> dict[str, Any]:
         """What a page is told of it.
@@ -131,19 +133,19 @@ async def run(job: Job, folder: Path) -> None:
             output, _ = await asyncio.gather(_read_output(process), _listen(process.stderr, job, said))
             status = await process.wait()
     except TimeoutError:
-        _fail(job, "too_slow", f"expected {command.name} to end within {limits.seconds:g} s, it did not")
+        job.fail("too_slow", f"expected {command.name} to end within {limits.seconds:g} s, it did not")
         return
     finally:
         await _end(process)
     if len(output) > _OUTPUT_BYTES:
-        _fail(job, "too_much_output", f"expected at most {_OUTPUT_BYTES} bytes from {command.name}, got more")
+        job.fail("too_much_output", f"expected at most {_OUTPUT_BYTES} bytes from {command.name}, got more")
         return
     job.output = output.decode("utf-8", errors="replace")
-    job.result = _last_json(job.output)
+    job.result = _json(job.output.rstrip().rpartition("\n")[2])
     if status == 0 or isinstance(job.result, dict):
         job.state = "done"
     else:
-        _fail(job, *_reason(command.name, status, said))
+        job.fail(*_reason(command.name, status, said))
 
 
 async def _read_output(process: asyncio.subprocess.Process) -> bytes:
@@ -170,8 +172,8 @@ async def _listen(stream: asyncio.StreamReader, job: Job, said: deque[str]) -> N
         if not line:
             return
         text = line.decode("utf-8", errors="replace").strip()
-        event = _object(text)
-        if event.get("event") == "progress":
+        event = _json(text)
+        if isinstance(event, dict) and event.get("event") == "progress":
             job.progress = Progress(
                 what=str(event.get("what", "")),
                 done=int(event.get("done") or 0),
@@ -212,24 +214,12 @@ async def _end_of(process: asyncio.subprocess.Process) -> None:
     await process.wait()
 
 
-def _last_json(output: str) -> Any:
-    for line in reversed(output.splitlines()):
-        if line.strip():
-            try:
-                return json.loads(line)
-            except ValueError:
-                return None
-    return None
-
-
-def _object(text: str) -> dict[str, Any]:
-    if not text.startswith("{"):
-        return {}
+def _json(text: str) -> Any:
+    """What a line holds; None if that is no JSON."""
     try:
-        found = json.loads(text)
-    except ValueError:
-        return {}
-    return found if isinstance(found, dict) else {}
+        return json.loads(text)
+    except (ValueError, RecursionError):
+        return None
 
 
 def _reason(name: str, status: int, said: deque[str]) -> tuple[str, str]:
@@ -242,7 +232,3 @@ def _reason(name: str, status: int, said: deque[str]) -> tuple[str, str]:
         if colon and code.isidentifier() and code.islower():
             return code, sentence
     return "failed", f"{name}: {last}"
-
-
-def _fail(job: Job, code: str, message: str) -> None:
-    job.state, job.code, job.message = "failed", code, message

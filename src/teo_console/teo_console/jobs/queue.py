@@ -7,8 +7,8 @@ from __future__ import annotations
 import asyncio
 import shutil
 import tempfile
-from collections import OrderedDict
 from collections.abc import Callable
+from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
@@ -27,12 +27,9 @@ class JobQueue:
 
     def __init__(self) -> None:
         """Begin with nothing to do."""
-        self._jobs: OrderedDict[str, Job] = OrderedDict()
-        self._waiting: asyncio.Queue[Job] = asyncio.Queue()
-        self._worker: asyncio.Task[None] | None = None
-        self._running: asyncio.Task[None] | None = None
-        self._current: Job | None = None
-        self._count = 0
+        self._jobs: dict[str, Job] = {}
+        self._tasks: dict[str, asyncio.Task[None]] = {}
+        self._turn = asyncio.Lock()  # it is given in the order in which it was asked for
 
     def submit(self, command: Command, then: Callable[[], None] = lambda: None) -> Job:
         """Put a command at the end of the queue.
@@ -44,17 +41,15 @@ class JobQueue:
         Raises:
             ConsoleError: "busy": too many wait already.
         """
-        if self._waiting.qsize() >= MOST_WAITING:
+        if sum(job.state == "waiting" for job in self._jobs.values()) >= MOST_WAITING:
             raise ConsoleError(
                 "busy", f"expected at most {MOST_WAITING} jobs that wait: try again when some are done"
             )
-        self._count += 1
-        job = Job(command, self._count, then)
+        job = Job(command, then)
         self._jobs[job.id] = job
         self._forget_old()
-        self._waiting.put_nowait(job)
-        if self._worker is None:
-            self._worker = asyncio.create_task(self._work())
+        task = self._tasks[job.id] = asyncio.create_task(self._run_in_turn(job))
+        task.add_done_callback(lambda _: self._end(job))
         return job
 
     async def run(self, command: Command) -> Job:
@@ -88,7 +83,8 @@ class JobQueue:
 
     def told(self, job: Job) -> dict[str, Any]:
         """What a page is told of a job: itself, and how many come before it."""
-        return job.told(sum(each.number < job.number and not each.is_over for each in self._jobs.values()))
+        before = takewhile(lambda each: each is not job, self._jobs.values())
+        return job.told(sum(not each.is_over for each in before))
 
     def cancel(self, identifier: str) -> None:
         """End a job at once if it has not ended; what it has written goes away.
@@ -97,38 +93,26 @@ class JobQueue:
             ConsoleError: "unknown_job".
         """
         job = self.get(identifier)
-        if job.is_over:
-            return
-        if job is self._current and self._running is not None:
-            self._running.cancel()
-        else:
-            _cancelled(job)
+        if not job.is_over:
+            self._tasks[job.id].cancel()
 
     async def close(self) -> None:
         """End whatever runs, and run nothing more."""
-        for job in self._jobs.values():
-            if not job.is_over and job is not self._current:
-                _cancelled(job)
-        if self._worker is not None:
-            self._worker.cancel()
-            await asyncio.gather(self._worker, return_exceptions=True)
+        tasks = list(self._tasks.values())
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
 
-    async def _work(self) -> None:
-        while True:
-            job = await self._waiting.get()
-            if job.is_over:
-                continue
-            self._current = job
-            self._running = asyncio.create_task(_run_in_a_folder(job))
-            try:
-                await asyncio.wait([self._running])
-            finally:
-                if not self._running.done():  # the queue is closed
-                    self._running.cancel()
-                    await asyncio.gather(self._running, return_exceptions=True)
-                if not job.is_over:
-                    _cancelled(job)
-                self._current = self._running = None
+    async def _run_in_turn(self, job: Job) -> None:
+        async with self._turn:
+            await _run_in_a_folder(job)
+
+    def _end(self, job: Job) -> None:
+        del self._tasks[job.id]
+        if not job.is_over:
+            name = job.command.name
+            job.state, job.code, job.message = "cancelled", "cancelled", f"{name} was cancelled"
+        job.ended.set()
 
     def _forget_old(self) -> None:
         for identifier in [name for name, job in self._jobs.items() if job.is_over][:-_REMEMBERED]:
@@ -140,14 +124,7 @@ async def _run_in_a_folder(job: Job) -> None:
     try:
         await run(job, folder)
     except OSError as error:
-        job.state, job.code, job.message = "failed", "not_started", f"{job.command.name}: {error}"
+        job.fail("not_started", f"{job.command.name}: {error}")
     finally:
         shutil.rmtree(folder, ignore_errors=True)
         job.then()
-        if job.is_over:
-            job.ended.set()
-
-
-def _cancelled(job: Job) -> None:
-    job.state, job.code, job.message = "cancelled", "cancelled", f"{job.command.name} was cancelled"
-    job.ended.set()

@@ -70,7 +70,6 @@ class ConsoleNode(Node):
         self._client = RobotClient(self, self._situation)
         self._observer = Observer(self, self._situation, now=self._now, changed=self._client.look_at_queue)
         self._bridge = Bridge()
-        self._pages = 0
         self._refused: tuple[str, str] | None = None
         self._joints: tuple[str, ...] = ()
         self._robot_known = False
@@ -79,7 +78,7 @@ class ConsoleNode(Node):
         self._last: Situation | None = None
         asked = self.create_guard_condition(lambda: self._bridge.serve_all(self._client.serve))
         self._bridge.wake = asked.trigger
-        self._hub = Hub(self._bridge.ask, self._count_pages)
+        self._hub = Hub(self._bridge.ask)
         address = self._value("address")
         self._access = Access.for_address(address, self._host_names())
         self._server = ServerThread(self._make_app, address, self._value("port"))
@@ -120,9 +119,6 @@ class ConsoleNode(Node):
         app.on_cleanup.append(clear_up)
         return app
 
-    def _count_pages(self, pages: int) -> None:
-        self._pages = pages
-
     def _host_names(self) -> frozenset[str]:
         """Names under which others reach this machine, beside its addresses."""
         given = {name.strip().lower() for name in self._value("allowed_hosts").split(",")} - {""}
@@ -137,7 +133,7 @@ class ConsoleNode(Node):
         state = self._observer.take_joint_state()
         if bool(self._observer.urdf) != self._robot_known:
             self._send_welcome()
-        if state is None or not self._pages:
+        if state is None or not self._hub.pages:
             return
         if tuple(state.name) != self._joints:
             self._joints = tuple(state.name)
@@ -169,7 +165,7 @@ class ConsoleNode(Node):
     def _send_situation(self) -> None:
         self._follow()
         now = self._now()
-        situation = self._situation.snapshot(now, pages=self._pages)
+        situation = self._situation.snapshot(now, pages=self._hub.pages)
         unchanged = self._last is not None and replace(situation, stamp=self._last.stamp) == self._last
         if unchanged and now - self._situation_sent < _REPEAT:
             return

@@ -15,7 +15,6 @@ from teo_sign_msgs.msg import (
     ExecutorStatus,
     SignSentence,
     SignToken,
-    TokenTiming,
     TranslationStatus,
 )
 from teo_sign_msgs.srv import GetSign, ListQueue
@@ -62,20 +61,20 @@ def seconds(stamp: object) -> float:
 
 def to_answer(number: int, response: Trigger.Response) -> Answer:
     """What became of a command; "not_done" if it was refused without a reason's code."""
-    if response.success:
-        return Answer(id=number, success=True, message=response.message)
-    refusal = _REFUSAL.fullmatch(response.message)
-    code, sentence = refusal.groups() if refusal else ("not_done", response.message)
-    return Answer(id=number, success=False, code=code, message=sentence)
+    return _answer(number, response.success, response.message, _REFUSAL)
 
 
 def to_answer_of_set(number: int, response: SetParameters.Response) -> Answer:
     """What became of a parameter that was to be set."""
     (result,) = response.results
-    if result.successful:
-        return Answer(id=number, success=True)
-    refusal = _REFUSED_VALUE.fullmatch(result.reason)
-    code, sentence = refusal.groups() if refusal else ("not_done", result.reason)
+    return _answer(number, result.successful, result.reason, _REFUSED_VALUE)
+
+
+def _answer(number: int, success: bool, said: str, refusal: re.Pattern[str]) -> Answer:
+    if success:
+        return Answer(id=number, success=True, message=said)
+    refused = refusal.fullmatch(said)
+    code, sentence = refused.groups() if refused else ("not_done", said)
     return Answer(id=number, success=False, code=code, message=sentence)
 
 
@@ -102,7 +101,10 @@ def to_signing_report(message: ExecutorStatus) -> SigningReport:
         state=_EXECUTOR.get(message.state, "unknown"),
         key=(message.utterance_id, message.sentence_index) if message.utterance_id else None,
         duration=message.duration,
-        captions=tuple(_to_timed_caption(timing) for timing in message.timings),
+        captions=tuple(
+            replace(_to_caption(timing.token), start=timing.start, duration=timing.duration)
+            for timing in message.timings
+        ),
         code=message.code,
         message=message.message,
     )
@@ -142,19 +144,18 @@ def to_queue(response: ListQueue.Response) -> tuple[Queued, ...]:
     )
 
 
-def to_sign(gloss: str, response: GetSign.Response) -> Sign:
-    """One sign of the table."""
+def to_answer_of_sign(number: int, gloss: str, response: GetSign.Response) -> Answer:
+    """One sign of the table, or why it is not there."""
+    if not response.success:
+        return Answer(id=number, success=False, code=response.code, message=response.message)
     points = response.trajectory.points
-    return Sign(
-        gloss=gloss,
-        handedness=response.handedness,
-        entry=response.entry,
-        motion=Motion(
-            joints=tuple(response.trajectory.joint_names),
-            times=tuple(seconds(point.time_from_start) for point in points),
-            positions=tuple(tuple(point.positions) for point in points),
-        ),
+    motion = Motion(
+        joints=tuple(response.trajectory.joint_names),
+        times=tuple(seconds(point.time_from_start) for point in points),
+        positions=tuple(tuple(point.positions) for point in points),
     )
+    sign = Sign(gloss=gloss, handedness=response.handedness, entry=response.entry, motion=motion)
+    return Answer(id=number, success=True, sign=sign)
 
 
 def _to_caption(token: SignToken) -> Caption:
@@ -167,7 +168,3 @@ def _to_caption(token: SignToken) -> Caption:
         inflection=token.inflection,
         confidence=token.confidence,
     )
-
-
-def _to_timed_caption(timing: TokenTiming) -> Caption:
-    return replace(_to_caption(timing.token), start=timing.start, duration=timing.duration)

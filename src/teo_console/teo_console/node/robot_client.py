@@ -21,7 +21,6 @@ from teo_sign_msgs.srv import GetSign, ListQueue
 
 from teo_console.errors import ConsoleError
 from teo_console.node import messages
-from teo_console.node.rearming import Rearming, Reply
 from teo_console.protocol import (
     Answer,
     Command,
@@ -36,6 +35,8 @@ from teo_console.protocol import (
     SignText,
 )
 from teo_console.situation import SharedSituation
+
+Reply = Callable[[Answer], None]
 
 
 class RobotClient:
@@ -69,7 +70,7 @@ class RobotClient:
         try:
             self._serve(asked, reply)
         except ConsoleError as error:
-            reply(_refused(asked, error))
+            reply(Answer(id=asked.id, success=False, code=error.code, message=str(error)))
 
     def look_at_queue(self) -> None:
         """Ask the executor for its queue."""
@@ -78,26 +79,27 @@ class RobotClient:
             called.add_done_callback(self._on_queue)
 
     def _serve(self, asked: FromPage, reply: Reply) -> None:
+        done = Answer(id=asked.id, success=True)
         match asked:
             case SignText():
                 self._sign(asked.text)
-                reply(Answer(id=asked.id, success=True))
+                reply(done)
             case ConfirmSpoken():
                 self._expect_listener(self._texts, "translator")
                 self._situation.spoken.take(asked.spoken)
                 self._sign(asked.text)
-                reply(Answer(id=asked.id, success=True))
+                reply(done)
             case DiscardSpoken():
                 self._situation.spoken.take(asked.spoken)
-                reply(Answer(id=asked.id, success=True))
+                reply(done)
             case SignGlosses():
                 self._sign_glosses(asked.glosses)
-                reply(Answer(id=asked.id, success=True))
+                reply(done)
             case SetSpeed():
                 self._expect_listener(self._speeds, "driver")
                 self._speeds.publish(SpeedScalingFactor(factor=asked.factor))
                 self._situation.speed_wanted(asked.factor)
-                reply(Answer(id=asked.id, success=True))
+                reply(done)
             case Command(order=Order.REARM):
                 self._rearming.ask(asked, reply)
             case Command():
@@ -106,18 +108,19 @@ class RobotClient:
                 self._order(asked, reply)
             case FetchSign():
                 request = GetSign.Request(gloss=asked.gloss)
-                self._call(self._get_sign, request, reply, lambda done: _of_sign(asked, done))
-
+                self._call(
+                    asked,
+                    self._get_sign,
+                    request,
+                    reply,
+                    lambda number, found: messages.to_answer_of_sign(number, asked.gloss, found),
+                )
             case SetLanguage():
                 self._set_language(asked, self._parameters, reply)
 
     def _order(self, asked: Command, reply: Reply) -> None:
         """Call the service that carries out a command, and reply once."""
-        try:
-            client = self._orders[asked.order]
-            self._call(client, Trigger.Request(), reply, lambda done: messages.to_answer(asked.id, done))
-        except ConsoleError as error:
-            reply(_refused(asked, error))
+        self._call(asked, self._orders[asked.order], Trigger.Request(), reply, messages.to_answer)
 
     def _set_language(self, asked: SetLanguage, clients: list[Any], reply: Reply) -> None:
         """Set the language of one node after the other, as long as none refuses; reply once."""
@@ -131,10 +134,7 @@ class RobotClient:
 
         value = Parameter("language", value=asked.language).to_parameter_msg()
         request = SetParameters.Request(parameters=[value])
-        try:
-            self._call(client, request, go_on, lambda done: messages.to_answer_of_set(asked.id, done))
-        except ConsoleError as error:
-            reply(_refused(asked, error))
+        self._call(asked, client, request, go_on, messages.to_answer_of_set)
 
     def _sign(self, text: str) -> None:
         self._expect_listener(self._texts, "translator")
@@ -166,13 +166,16 @@ class RobotClient:
                 f"expected the {node} to listen on {publisher.topic_name}, nobody does: start it",
             )
 
-    def _call(self, client: Any, request: Any, reply: Reply, answer: Callable[[Any], Answer]) -> None:
-        if not client.service_is_ready():
-            raise ConsoleError(
-                "no_service", f"expected a node that serves {client.srv_name}, there is none: start it"
-            )
-        called = client.call_async(request)
-        called.add_done_callback(lambda done: reply(answer(done.result())))
+    def _call(
+        self, asked: FromPage, client: Any, request: Any, reply: Reply, answer: Callable[[int, Any], Answer]
+    ) -> None:
+        """Call a service, and reply with what `answer` makes of the request's number and the response."""
+        if client.service_is_ready():
+            called = client.call_async(request)
+            called.add_done_callback(lambda done: reply(answer(asked.id, done.result())))
+            return
+        sentence = f"expected a node that serves {client.srv_name}, there is none: start it"
+        reply(Answer(id=asked.id, success=False, code="no_service", message=sentence))
 
     def _on_queue(self, done: Future) -> None:
         response = done.result()
@@ -180,11 +183,37 @@ class RobotClient:
             self._situation.queue(messages.to_queue(response))
 
 
-def _refused(asked: FromPage, error: ConsoleError) -> Answer:
-    return Answer(id=asked.id, success=False, code=error.code, message=str(error))
+class Rearming:
+    """Has the driver re-arm the robot, which it does at rest, unless the robot is stopped meanwhile.
 
+    A stop wins over every request to re-arm that came before it.
+    """
 
-def _of_sign(asked: FetchSign, response: GetSign.Response) -> Answer:
-    if not response.success:
-        return Answer(id=asked.id, success=False, code=response.code, message=response.message)
-    return Answer(id=asked.id, success=True, sign=messages.to_sign(asked.gloss, response))
+    def __init__(self, call: Callable[[Command, Reply], None]) -> None:
+        """Begin without a request.
+
+        Args:
+            call: Has a command carried out and calls back with the answer, once, now or later.
+        """
+        self._call = call
+        self._waiting: dict[object, tuple[Command, Reply]] = {}
+
+    def ask(self, request: Command, reply: Reply) -> None:
+        """Re-arm the robot; reply when that is done, refused or given up."""
+        key = object()
+        self._waiting[key] = request, reply
+        self._call(request, lambda answer: self._on_answer(key, request, answer))
+
+    def give_up(self) -> None:
+        """The robot is about to be stopped: answer what waits."""
+        sentence = "expected the robot to come to rest, it was told to stop again: call `rearm` once more"
+        for request, reply in self._waiting.values():
+            reply(Answer(id=request.id, success=False, code="stopped_again", message=sentence))
+        self._waiting.clear()
+
+    def _on_answer(self, key: object, request: Command, answer: Answer) -> None:
+        waiting = self._waiting.pop(key, None)
+        if waiting is not None:
+            waiting[1](answer)
+        elif answer.success:  # the driver may have had the stop before the request
+            self._call(Command(id=request.id, order=Order.STOP), lambda _: None)

@@ -75,7 +75,7 @@ def krippendorff_alpha(units: Iterable[Sequence[Hashable]]) -> float | None:
     return 1.0 - (n - 1) * observed / expected
 
 
-class Anchor(Struct, frozen=True, kw_only=True):
+class _Anchor(Struct, frozen=True, kw_only=True):
     """A published figure to compare with. It was asked otherwise and of others: no more than a mark."""
 
     name: str
@@ -85,17 +85,17 @@ class Anchor(Struct, frozen=True, kw_only=True):
 
 
 _ANCHORS = (
-    Anchor(
+    _Anchor(
         name="letters",
         what="94.7 % of 26 letters recognised (American manual alphabet on the TATUM hand)",
         source="TATUM hand, IEEE EMBC 2021",
     ),
-    Anchor(
+    _Anchor(
         name="words",
         what="most of 15 isolated signs recognised by most of 12 people (Italian Sign Language on Pepper)",
         source="Botta et al. 2025, arXiv:2509.09889",
     ),
-    Anchor(
+    _Anchor(
         name="teo",
         what="TEO's fingerspelling and basic words shown to 16 deaf and hard of hearing people",
         source="Gago et al., Electronics 2019, 8(1) 57, arXiv:1901.05939",
@@ -130,7 +130,7 @@ class Report(Struct, frozen=True, kw_only=True):
     agreement_understood: float | None
     """The same of what was understood."""
     items: tuple[_ItemReport, ...]
-    anchors: tuple[Anchor, ...] = _ANCHORS
+    anchors: tuple[_Anchor, ...] = _ANCHORS
 
 
 def report(meanings: Sequence[str], answers: Sequence[Answer]) -> Report:

@@ -25,25 +25,22 @@ _MOST_MALFORMED = 10
 # Ping of an idle connection [s], by which a page that went without a word is noticed.
 _HEARTBEAT = 15.0
 
-Serve = Callable[[FromPage], Awaitable[Answer]]
-
 
 class Hub:
     """Keeps the open pages. All methods belong to the server's event loop."""
 
-    def __init__(self, serve: Serve, pages_changed: Callable[[int], None]) -> None:
-        """Begin without a page.
-
-        Args:
-            serve: Answers a request.
-            pages_changed: Told how many pages are open.
-        """
+    def __init__(self, serve: Callable[[FromPage], Awaitable[Answer]]) -> None:
+        """Begin without a page; `serve` answers a request."""
         self._serve = serve
-        self._pages_changed = pages_changed
         self._pages: set[_Page] = set()
         self._tasks: set[asyncio.Task[None]] = set()  # a task that nobody holds may be collected
         self._welcome = ""
         self._situation = ""
+
+    @property
+    def pages(self) -> int:
+        """Number of open pages; any thread may ask."""
+        return len(self._pages)
 
     def welcome(self, message: str) -> None:
         """Send the welcome to every page, and to those to come."""
@@ -72,7 +69,6 @@ class Hub:
         await socket.prepare(request)
         page = _Page(socket)
         self._pages.add(page)
-        self._pages_changed(len(self._pages))
         if self._welcome:
             page.welcome(self._welcome)
         if self._situation:
@@ -82,7 +78,6 @@ class Hub:
             await self._listen(page)
         finally:
             self._pages.discard(page)
-            self._pages_changed(len(self._pages))
             sender.cancel()
             await socket.close()
         return socket

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import asyncio
 import io
-from collections.abc import AsyncIterator, Awaitable, Callable
+from collections.abc import AsyncIterator, Callable, Iterator
 from pathlib import Path
 
 import av
@@ -16,7 +16,7 @@ import pytest
 from teo_console.errors import ConsoleError
 from teo_console.jobs import recordings as module
 from teo_console.jobs.queue import JobQueue
-from teo_console.jobs.recordings import Recording, Recordings
+from teo_console.jobs.recordings import Recordings
 
 # A bag by its first bytes; what is in it is for the command that reads it.
 BAG = b"\x89MCAP0\r\n" + bytes(1000)
@@ -43,72 +43,58 @@ async def pieces(content: bytes) -> AsyncIterator[bytes]:
         yield content[start : start + 50_000]
 
 
-def with_recordings(folder: Path, act: Callable[[Recordings], Awaitable[None]]) -> None:
-    async def go() -> None:
-        jobs = JobQueue()
-        recordings = Recordings(folder, jobs)
-        try:
-            await act(recordings)
-        finally:
-            recordings.close()
-            await jobs.close()
-
-    asyncio.run(go())
-
-
-def refusal(folder: Path, content: bytes) -> ConsoleError:
-    """Why a content is refused; nothing of it may stay."""
-    caught: list[ConsoleError] = []
-
-    async def act(recordings: Recordings) -> None:
-        with pytest.raises(ConsoleError) as info:
-            await recordings.receive(pieces(content), 0.0)
-        assert not folder.exists() or not list(folder.iterdir())
-        caught.append(info.value)
-
-    with_recordings(folder, act)
-    return caught[0]
+@pytest.fixture
+def recordings(runner: asyncio.Runner, tmp_path: Path) -> Iterator[Recordings]:
+    jobs = JobQueue()
+    opened = Recordings(tmp_path / "recordings", jobs)
+    yield opened
+    opened.close()
+    runner.run(jobs.close())
 
 
 @pytest.mark.parametrize(
     ("container", "codec", "suffix"),
     [("webm", "libvpx", ".webm"), ("mp4", "libx264", ".mp4"), ("mov", "libx264", ".mp4")],
 )
-def test_a_film_is_known_by_its_content(tmp_path: Path, container: str, codec: str, suffix: str) -> None:
-    async def act(recordings: Recordings) -> None:
-        # Telephones name what a film holds in any encoding.
-        content = film(container, codec).replace(b"VideoHandler", "Gestor vídeo".encode("mac_roman"))
-        taken = await recordings.receive(pieces(content), 0.0)
-        assert taken.path.suffix == suffix
-        assert (taken.figures["width"], taken.figures["height"], taken.figures["images"]) == (320, 240, 20)
-        assert taken.figures["seconds"] == pytest.approx(1.9, abs=0.01)
-        assert taken.path.stat().st_mode & 0o077 == 0 or taken.folder.stat().st_mode & 0o077 == 0
-
-    with_recordings(tmp_path / "recordings", act)
+async def test_a_film_is_known_by_its_content(
+    recordings: Recordings, container: str, codec: str, suffix: str
+) -> None:
+    # Telephones name what a film holds in any encoding.
+    content = film(container, codec).replace(b"VideoHandler", "Gestor vídeo".encode("mac_roman"))
+    taken = await recordings.receive(pieces(content), 0.0)
+    assert taken.path.suffix == suffix
+    assert (taken.figures["width"], taken.figures["height"], taken.figures["images"]) == (320, 240, 20)
+    assert taken.figures["seconds"] == pytest.approx(1.9, abs=0.01)
+    assert taken.path.stat().st_mode & 0o077 == 0 or taken.folder.stat().st_mode & 0o077 == 0
 
 
 @pytest.mark.parametrize(
-    ("name", "content"),
+    "content",
     [
-        ("nothing", b""),
-        ("a page", b"<html><script>alert(1)</script></html>" * 100),
-        ("a playlist that fetches", b"#EXTM3U\n#EXTINF:10,\nhttp://127.0.0.1/secret\n"),
-        ("a program", b"\x7fELF" + bytes(1000)),
-        ("noise that begins as a film", b"\x1a\x45\xdf\xa3" + bytes(range(256)) * 50),
-        ("noise that begins as another", b"\x00\x00\x00\x18ftypmp42" + bytes(range(256)) * 50),
-        ("a film cut short", film()[:700]),
-        ("pictures too small for fingers", film(size=(64, 48))),
-        ("a film of one image", film(n=1)),
+        pytest.param(bytes, id="nothing"),
+        pytest.param(lambda: b"<html><script>alert(1)</script></html>" * 100, id="a page"),
+        pytest.param(
+            lambda: b"#EXTM3U\n#EXTINF:10,\nhttp://127.0.0.1/secret\n", id="a playlist that fetches"
+        ),
+        pytest.param(lambda: b"\x7fELF" + bytes(1000), id="a program"),
+        pytest.param(lambda: b"\x1a\x45\xdf\xa3" + bytes(range(256)) * 50, id="begins as a film"),
+        pytest.param(lambda: b"\x00\x00\x00\x18ftypmp42" + bytes(range(256)) * 50, id="begins as another"),
+        pytest.param(lambda: film()[:700], id="a film cut short"),
+        pytest.param(lambda: film(size=(64, 48)), id="pictures too small for fingers"),
+        pytest.param(lambda: film(n=1), id="a film of one image"),
     ],
 )
-def test_what_is_no_film_is_refused_and_nothing_of_it_stays(
-    tmp_path: Path, name: str, content: bytes
+async def test_what_is_no_film_is_refused_and_nothing_of_it_stays(
+    recordings: Recordings, tmp_path: Path, content: Callable[[], bytes]
 ) -> None:
-    assert refusal(tmp_path / "recordings", content).code == "bad_film", name
+    with pytest.raises(ConsoleError) as refused:
+        await recordings.receive(pieces(content()), 0.0)
+    assert refused.value.code == "bad_film"
+    assert not list(tmp_path.glob("recordings/*"))
 
 
-def test_what_is_too_large_is_refused_before_it_is_all_here(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+async def test_what_is_too_large_is_refused_before_it_is_all_here(
+    recordings: Recordings, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(module, "MOST_BYTES", 120_000)
     sent = []
@@ -118,55 +104,37 @@ def test_what_is_too_large_is_refused_before_it_is_all_here(
             sent.append(1)
             yield bytes(50_000)
 
-    async def act(recordings: Recordings) -> None:
-        with pytest.raises(ConsoleError) as caught:
-            await recordings.receive(endless(), 0.0)
-        assert caught.value.code == "too_large"
-
-    with_recordings(tmp_path / "recordings", act)
+    with pytest.raises(ConsoleError) as caught:
+        await recordings.receive(endless(), 0.0)
+    assert caught.value.code == "too_large"
     assert len(sent) == 3
 
 
-def test_recordings_that_pages_have_half_sent_count(tmp_path: Path) -> None:
-    async def act(recordings: Recordings) -> None:
-        sent = asyncio.Event()
+async def test_recordings_that_pages_have_half_sent_count(recordings: Recordings) -> None:
+    sent = asyncio.Event()
 
-        async def slowly() -> AsyncIterator[bytes]:
-            yield BAG[:10]
-            await sent.wait()
-            yield BAG[10:]
+    async def slowly() -> AsyncIterator[bytes]:
+        yield BAG[:10]
+        await sent.wait()
+        yield BAG[10:]
 
-        coming = [asyncio.create_task(recordings.receive(slowly(), 0.0)) for _ in range(40)]
-        await asyncio.sleep(0.0)
-        sent.set()
-        ended = await asyncio.gather(*coming, return_exceptions=True)
-        assert [error.code for error in ended if isinstance(error, ConsoleError)] == ["busy"] * 8
-
-    with_recordings(tmp_path / "recordings", act)
+    coming = [asyncio.create_task(recordings.receive(slowly(), 0.0)) for _ in range(40)]
+    await asyncio.sleep(0.0)
+    sent.set()
+    ended = await asyncio.gather(*coming, return_exceptions=True)
+    assert [error.code for error in ended if isinstance(error, ConsoleError)] == ["busy"] * 8
 
 
-def test_a_recording_goes_when_it_is_discarded_grows_old_or_the_console_ends(tmp_path: Path) -> None:
-    folder = tmp_path / "recordings"
-    taken: list[Recording] = []
-
-    async def act(recordings: Recordings) -> None:
-        first, second, third = [await recordings.receive(pieces(BAG), now) for now in (0.0, 10.0, 3000.0)]
-        recordings.discard(first.id)
-        assert not first.folder.exists()
-        with pytest.raises(ConsoleError, match="still here"):
-            recordings.get(first.id)
-        recordings.forget_old(3700.0)
-        assert not second.folder.exists()
-        assert recordings.get(third.id) is third
-        taken.append(third)
-
-    with_recordings(folder, act)
-    assert not taken[0].folder.exists()
-
-
-def test_what_an_earlier_run_left_behind_is_deleted(tmp_path: Path) -> None:
-    left = tmp_path / "recordings" / "abc" / "film.webm"
-    left.parent.mkdir(parents=True)
-    left.touch()
-    with_recordings(tmp_path / "recordings", lambda _: asyncio.sleep(0))
-    assert not left.exists()
+async def test_a_recording_goes_when_it_is_discarded_grows_old_or_the_console_ends(
+    recordings: Recordings,
+) -> None:
+    first, second, third = [await recordings.receive(pieces(BAG), now) for now in (0.0, 10.0, 3000.0)]
+    recordings.discard(first.id)
+    assert not first.folder.exists()
+    with pytest.raises(ConsoleError, match="still here"):
+        recordings.get(first.id)
+    recordings.forget_old(3700.0)
+    assert not second.folder.exists()
+    assert recordings.get(third.id) is third
+    recordings.close()
+    assert not third.folder.exists()

@@ -5,8 +5,6 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from teo_console.review.report import krippendorff_alpha, wilson
 
@@ -35,22 +33,12 @@ def test_alpha_of_the_published_examples() -> None:
     assert krippendorff_alpha(both) == pytest.approx(0.095, abs=0.0005)
 
 
-def test_alpha_is_one_of_those_who_always_agree_and_none_where_nothing_tells() -> None:
+def test_figures_are_none_where_nothing_tells() -> None:
+    assert wilson(0, 0) is None
     assert krippendorff_alpha([["right", "right"], ["wrong", "wrong"]]) == 1.0
     assert krippendorff_alpha([]) is None
     assert krippendorff_alpha([["right"], ["wrong"]]) is None
     assert krippendorff_alpha([["right", "right"], ["right", "right"]]) is None
-
-
-@given(st.lists(st.lists(st.sampled_from("abc"), max_size=4), max_size=8))
-def test_alpha_does_not_care_who_said_what_nor_for_names(items: list[list[str]]) -> None:
-    alpha = krippendorff_alpha(items)
-    renamed = [[value.upper() for value in reversed(values)] for values in reversed(items)]
-    other = krippendorff_alpha(renamed)
-    assert (alpha is None) == (other is None)
-    if alpha is not None and other is not None:
-        assert alpha == pytest.approx(other)
-        assert alpha <= 1.0
 
 
 @pytest.mark.parametrize(
@@ -63,7 +51,3 @@ def test_wilson_of_the_published_examples(successes: int, total: int, low: float
     assert interval is not None
     assert interval.share == successes / total
     assert (interval.low, interval.high) == (pytest.approx(low, abs=5e-5), pytest.approx(high, abs=5e-5))
-
-
-def test_of_no_answers_there_is_no_share() -> None:
-    assert wilson(0, 0) is None

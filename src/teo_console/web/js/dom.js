@@ -21,3 +21,26 @@ export function h(tag, properties = {}, ...children) {
   element.append(...children.filter((child) => child !== null && child !== false));
   return element;
 }
+
+/** An input with its label above it. */
+export function field(label, input) {
+  return h("div", { class: "field" }, h("label", { for: input.id }, label), input);
+}
+
+/** A film that plays over and over without sound; whoever shows no more of it revokes its address. */
+export function filmOf(blob, label) {
+  const src = URL.createObjectURL(blob);
+  return h("video", { src, controls: true, loop: true, autoplay: true, playsInline: true, muted: true, class: "film", "aria-label": label });
+}
+
+const SVG = "http://www.w3.org/2000/svg";
+
+/** A drawing of an SVG file, by its address and name in it. */
+export function drawing(href, attributes) {
+  const svg = document.createElementNS(SVG, "svg");
+  for (const [name, value] of Object.entries(attributes)) svg.setAttribute(name, value);
+  const use = document.createElementNS(SVG, "use");
+  use.setAttribute("href", href);
+  svg.append(use);
+  return svg;
+}

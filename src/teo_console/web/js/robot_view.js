@@ -50,7 +50,7 @@ let description = null; // one download for all views
  * @param {HTMLElement} place Gets the picture as its child; its size is the picture's.
  * @param {Object} options `socket`, `live`, `t`.
  * @returns {Promise<Object>} `camera(name)`, `mirrored(on)`, `play(motion)`, `hold(share)`, `follow()`, `remove()`,
- *   `rate`, the seconds of a played motion a second, and `frames`, how many pictures have been drawn.
+ *   and `rate`, the seconds of a played motion a second.
  */
 export async function robotView(place, { socket, live, t }) {
   const view = new RobotView(place, live, t);
@@ -59,7 +59,6 @@ export async function robotView(place, { socket, live, t }) {
 }
 
 class RobotView {
-  frames = 0;
   rate = 1;
   #robot = null;
   #motion = null;
@@ -79,9 +78,10 @@ class RobotView {
     place.classList.add("stage");
     this.empty = h("p", { class: "empty" }, t("view.waiting"));
     place.append(this.empty);
-    this.renderer = rendererByCard();
+    // On a graphics card, with smooth edges; by the processor where there is none.
+    this.renderer = rendererWith({ antialias: true, failIfMajorPerformanceCaveat: true });
     this.period = this.renderer ? 0 : PROCESSOR_PERIOD;
-    this.renderer ??= rendererByProcessor();
+    this.renderer ??= rendererWith({});
     if (!this.renderer) {
       this.empty.textContent = t("view.no_webgl");
       return;
@@ -221,7 +221,6 @@ class RobotView {
     this.#dirty = false;
     this.renderer.render(this.scene, this.eye);
     if (!this.inset.hidden) this.#renderInset();
-    this.frames += 1;
   }
 
   #adapt(now) {
@@ -339,21 +338,10 @@ function topOf(robot) {
   return top;
 }
 
-const RENDERER = { alpha: true, powerPreference: "low-power" };
-
-/** Draws on a graphics card, with smooth edges; null where there is none. */
-function rendererByCard() {
-  return rendererWith({ ...RENDERER, antialias: true, failIfMajorPerformanceCaveat: true });
-}
-
-/** Draws by the processor; null where there is no WebGL 2. */
-function rendererByProcessor() {
-  return rendererWith(RENDERER);
-}
-
+/** Draws; null where there is no WebGL 2 with these options. */
 function rendererWith(options) {
   try {
-    return new WebGLRenderer(options);
+    return new WebGLRenderer({ alpha: true, powerPreference: "low-power", ...options });
   } catch {
     return null;
   }

@@ -21,7 +21,6 @@ const second = (count = 1) => new Promise((resolve) => setTimeout(resolve, 1000 
 export function camera({ t, notify }, { onFilm, ready, bags = false }) {
   let stream = null;
   const preview = h("video", { muted: true, playsInline: true, class: "preview", "aria-label": t("camera.preview") });
-  preview.muted = true;
   const count = h("p", { class: "count", role: "status" });
   const frame = h("div", { class: "viewfinder", hidden: true }, preview, count);
   const start = h("button", { type: "button", class: "primary", id: "camera-start", on: { click: open } }, t("camera.start"));

@@ -3,10 +3,9 @@
 // A sign as it is written in SignWriting, where this machine's user has drawn it with `draw_signwriting`.
 
 import { api } from "../api.js";
-import { h } from "../dom.js";
+import { drawing, h } from "../dom.js";
 import { t } from "../i18n.js";
 
-const SVG = "http://www.w3.org/2000/svg";
 const SCALE = 1.6; // of what is usual in print: hands are read at arm's length from the screen
 // Kinds of symbols by the first three digits of their keys, as the International SignWriting Alphabet 2010 has them.
 const KINDS = [
@@ -36,16 +35,12 @@ async function drawn() {
 export async function signWriting(gloss, source) {
   const sign = (await drawn())[gloss];
   if (!sign || !source.includes(`"${sign.entry}"`)) return null;
-  const drawing = document.createElementNS(SVG, "svg");
-  drawing.setAttribute("role", "img");
-  drawing.setAttribute("aria-label", t("signwriting.label", { name: gloss.replaceAll("_", " "), parts: parts(sign.fsw) }));
-  const use = document.createElementNS(SVG, "use");
-  use.setAttribute("href", `/signwriting/drawings.svg#${encodeURIComponent(gloss)}`);
-  drawing.append(use);
   const { width, height } = size(sign.fsw);
-  drawing.setAttribute("width", width * SCALE);
-  drawing.setAttribute("height", height * SCALE);
-  return h("figure", { class: "signwriting" }, drawing, h("figcaption", { class: "faint" }, t("signwriting.from", { entry: sign.entry })));
+  const label = t("signwriting.label", { name: gloss.replaceAll("_", " "), parts: parts(sign.fsw) });
+  const picture = drawing(`/signwriting/drawings.svg#${encodeURIComponent(gloss)}`, {
+    role: "img", "aria-label": label, width: width * SCALE, height: height * SCALE,
+  });
+  return h("figure", { class: "signwriting" }, picture, h("figcaption", { class: "faint" }, t("signwriting.from", { entry: sign.entry })));
 }
 
 /** What is drawn, in words: "hand ×2, movement ×1". */

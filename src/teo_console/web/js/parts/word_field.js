@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A field for a word of the table, which offers those that there are.
 
-import { h } from "../dom.js";
+import { field, h } from "../dom.js";
 
 let fields = 0;
 
@@ -20,6 +20,7 @@ export function wordField(label, signs) {
   const words = h("datalist", { id: `${id}-words` });
   signs.then((all) => words.append(...all.filter(({ kind }) => kind === "lexical").map(({ gloss }) => h("option", { value: gloss.replaceAll("_", " ") }))));
   const input = h("input", { type: "text", id, list: `${id}-words`, autocomplete: "off", maxlength: "60", spellcheck: "false" });
-  const element = h("div", { class: "field" }, h("label", { for: id }, label), input, words);
+  const element = field(label, input);
+  element.append(words);
   return { element, input, value: () => glossOf(input.value) };
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The series that there are, a form for a new one, and exports of all that was said.
 
-import { h } from "../dom.js";
+import { field, h } from "../dom.js";
 import { JobProgress } from "../parts/jobs.js";
 import { glossOf } from "../parts/word_field.js";
 
@@ -79,7 +79,6 @@ function newSeries({ api, t, attempt, notify }, refresh) {
   const glosses = h("textarea", { id: "new-glosses", rows: "3" });
   const sentences = h("textarea", { id: "new-sentences", rows: "3" });
   const choices = h("select", { id: "new-choices" }, h("option", { value: "yes" }, t("review.choices")), h("option", { value: "" }, t("review.free")));
-  const field = (input, key) => h("div", { class: "field" }, h("label", { for: input.id }, t(key)), input);
   async function submit(event) {
     event.preventDefault();
     await attempt(async () => {
@@ -102,6 +101,7 @@ function newSeries({ api, t, attempt, notify }, refresh) {
   }
   return h("form", { class: "card stack", "aria-labelledby": "new-title-words", on: { submit } },
     h("h2", { id: "new-title-words" }, t("review.new")),
-    field(kind, "review.kind"), field(title, "review.title"), field(glosses, "review.glosses"), field(sentences, "review.sentences"), field(choices, "review.how"),
+    field(t("review.kind"), kind), field(t("review.title"), title), field(t("review.glosses"), glosses),
+    field(t("review.sentences"), sentences), field(t("review.how"), choices),
     h("div", { class: "row" }, h("button", { type: "submit" }, t("review.make"))), progress.element);
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One item after the other: the robot moves, the reviewer says what it was, and only then reads it and judges.
 
-import { h } from "../dom.js";
+import { field, h } from "../dom.js";
 import { pictureControls } from "../watch/picture_controls.js";
 
 const FLAGS = ["handshape", "place", "palm", "movement", "speed", "face"];
@@ -20,7 +20,7 @@ export async function questions(element, context, series) {
   const reviewer = () => name.value.trim();
   const body = h("div", { class: "two", hidden: true }, seen, asked);
   const begin = h("form", { class: "card stack", on: { submit: start } },
-    h("p", {}, t("review.welcome")), h("div", { class: "field" }, h("label", { for: "reviewer" }, t("review.name")), name),
+    h("p", {}, t("review.welcome")), field(t("review.name"), name),
     h("div", { class: "row" }, h("button", { type: "submit", class: "primary" }, t("review.begin"))));
   element.append(begin, body);
 
@@ -71,7 +71,7 @@ export async function questions(element, context, series) {
       if (words.value.trim()) say(words.value.trim());
       else words.focus();
     };
-    return [heading(question), h("form", { class: "stack", on: { submit } }, h("div", { class: "field" }, h("label", { for: "understood" }, t("review.what")), words), h("div", { class: "row" }, h("button", { type: "submit", class: "primary" }, t("review.say")), nothing))];
+    return [heading(question), h("form", { class: "stack", on: { submit } }, field(t("review.what"), words), h("div", { class: "row" }, h("button", { type: "submit", class: "primary" }, t("review.say")), nothing))];
   }
 
   function judging(question) {
@@ -98,7 +98,7 @@ export async function questions(element, context, series) {
       heading(question),
       h("p", {}, t("review.you_said", { understood: question.understood.replaceAll("_", " ") || t("review.nothing") })),
       h("p", { class: "meaning" }, t("review.it_is", { meaning })),
-      h("form", { class: "stack", on: { submit } }, rating, flags, h("div", { class: "field" }, h("label", { for: "comment" }, t("review.comment")), comment),
+      h("form", { class: "stack", on: { submit } }, rating, flags, field(t("review.comment"), comment),
         h("div", { class: "row" }, h("button", { type: "submit", class: "primary" }, t("review.next")), again)),
     ];
   }

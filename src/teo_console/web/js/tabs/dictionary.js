@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Dictionary: every sign of the table, what it is founded on, and how it looks; what of a text has signs.
 
-import { h } from "../dom.js";
+import { field, h } from "../dom.js";
 import { figure, has } from "../i18n.js";
 import { JobProgress } from "../parts/jobs.js";
 import { signWriting } from "../parts/sign_writing.js";
@@ -151,10 +151,6 @@ function coverage({ api, t, attempt }) {
 
 function select(id, options) {
   return h("select", { id }, ...options.map(([value, words]) => h("option", { value }, words)));
-}
-
-function field(label, input) {
-  return h("div", { class: "field" }, h("label", { for: input.id }, label), input);
 }
 
 /** As words are compared: "Qué" is "que". */

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Practise: choose a word, see TEO sign it, sign it to the camera, and read what differs.
 
-import { h } from "../dom.js";
+import { filmOf, h } from "../dom.js";
 import { figure } from "../i18n.js";
 import { camera } from "../parts/camera.js";
 import { JobProgress } from "../parts/jobs.js";
@@ -58,10 +58,8 @@ export async function mount(element, context) {
   }
 
   function showBeside(film) {
-    const video = h("video", { src: URL.createObjectURL(film), controls: true, loop: true, autoplay: true, playsInline: true, class: "film", "aria-label": t("practise.film") });
-    video.muted = true;
     beside.className = "side-by-side";
-    beside.prepend(video);
+    beside.prepend(filmOf(film, t("practise.film")));
   }
 
   async function look(film) {

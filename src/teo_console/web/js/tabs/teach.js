@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Teach: film a sign, look at what TEO makes of it, and keep it or try again.
 
-import { h } from "../dom.js";
+import { field, h } from "../dom.js";
 import { camera } from "../parts/camera.js";
 import { JobProgress } from "../parts/jobs.js";
 import { glossOf } from "../parts/word_field.js";
@@ -67,9 +67,7 @@ export async function mount(element, context) {
     h("div", { class: "two" },
       h("section", { class: "card stack", "aria-labelledby": "teach-title" },
         h("h2", { id: "teach-title" }, t("teach.show")),
-        h("div", { class: "fields" },
-          h("div", { class: "field" }, h("label", { for: "teach-gloss" }, t("teach.word")), gloss),
-          h("div", { class: "field" }, h("label", { for: "teach-hands" }, t("teach.hands")), hands)),
+        h("div", { class: "fields" }, field(t("teach.word"), gloss), field(t("teach.hands"), hands)),
         filming.element, progress.element),
       result),
   );

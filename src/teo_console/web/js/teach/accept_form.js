@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The terms under which a sign is kept, and the buttons that keep it.
 
-import { h } from "../dom.js";
+import { field, h } from "../dom.js";
 import { refusalText } from "../status.js";
 
 const LICENCES = ["CC-BY-4.0", "CC-BY-SA-4.0", "CC0-1.0", "for this laboratory alone"];
@@ -51,9 +51,7 @@ export function acceptForm(context, { gloss, hands, exists, failed, recording, p
   const form = h(
     "form", { class: "stack", on: { submit } },
     h("h3", {}, t("teach.terms")),
-    h("div", { class: "fields" },
-      h("div", { class: "field" }, h("label", { for: "accept-licence" }, t("teach.licence")), licence),
-      h("div", { class: "field" }, h("label", { for: "accept-person" }, t("teach.person")), person)),
+    h("div", { class: "fields" }, field(t("teach.licence"), licence), field(t("teach.person"), person)),
     ...needed.map(({ element }) => element), keep.element,
     h("div", { class: "row" }, accept, redo),
   );

@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // How a sign stands at each gate: a picture, words, and what to do.
 
-import { h } from "../dom.js";
+import { drawing, h } from "../dom.js";
 import { figure, t } from "../i18n.js";
-
-const SVG = "http://www.w3.org/2000/svg";
 
 /** Every gate of a capture. */
 export const GATES = ["much_lost", "no_rest", "too_short", "palm_off", "contact_off", "place_off", "wrong_place", "too_slow"];
@@ -30,21 +28,11 @@ function gate({ code, passed, got, bound, at }, look) {
   const failed = passed === false;
   const mark = passed === null ? "" : passed ? "✓ " : "✗ ";
   return h("li", { class: `gate ${passed === null ? "" : failed ? "failed" : "passed"}`, dataset: { gate: code } },
-    picture(code),
+    drawing(`/gates.svg#${code}`, { viewBox: "0 0 48 48", "aria-hidden": "true" }),
     h("div", {},
       h("strong", {}, `${mark}${t(`gate.${code}`)}`),
       passed === null ? null : h("span", { class: "visually-hidden" }, t(failed ? "gate.failed" : "gate.passed")),
       got != null && h("p", {}, t(`gate.${code}.got`, { got: scaled(got), bound: scaled(bound) })),
       when && (look ? h("button", { type: "button", class: "quiet", on: { click: () => look(at) } }, when) : h("p", {}, when)),
       passed ? null : h("p", {}, t(`gate.${code}.remedy`))));
-}
-
-function picture(code) {
-  const drawing = document.createElementNS(SVG, "svg");
-  drawing.setAttribute("viewBox", "0 0 48 48");
-  drawing.setAttribute("aria-hidden", "true");
-  const use = document.createElementNS(SVG, "use");
-  use.setAttribute("href", `/gates.svg#${code}`);
-  drawing.append(use);
-  return drawing;
 }

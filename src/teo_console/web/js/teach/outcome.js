@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What became of a film: demonstration and robot side by side, gates, signs that look like it, and what to do with it.
 
-import { h } from "../dom.js";
+import { filmOf, h } from "../dom.js";
 import { figure } from "../i18n.js";
 import { refusalText } from "../status.js";
 import { pictureControls } from "../watch/picture_controls.js";
@@ -18,12 +18,10 @@ import { gateList } from "./gates.js";
  */
 export async function outcome(context, { told, wanted, film, recording, progress, again, forget }) {
   const { api, socket, t, robotView } = context;
-  const address = URL.createObjectURL(film);
-  const video = h("video", { src: address, controls: true, loop: true, autoplay: true, playsInline: true, class: "film", "aria-label": t("teach.demonstration") });
-  video.muted = true;
+  const video = filmOf(film, t("teach.demonstration"));
   const isFilm = !film.name?.endsWith(".mcap");
   const redo = h("button", { type: "button", on: { click: again } }, t("teach.again"));
-  const close = () => URL.revokeObjectURL(address);
+  const close = () => URL.revokeObjectURL(video.src);
   if (told.code !== "captured") {
     const element = h(
       "section", { class: "card stack", "aria-labelledby": "outcome-title" },

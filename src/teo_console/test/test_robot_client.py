@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Requests to re-arm a robot: passed on, and given up when it is stopped again."""
+"""Requests of pages: re-arming is given up when the robot is stopped again; refusals have their reason."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import pytest
 from std_srvs.srv import Trigger
 
 from teo_console.node.messages import to_answer
-from teo_console.node.rearming import Rearming, Reply
+from teo_console.node.robot_client import Rearming, Reply
 from teo_console.protocol import Answer, Command, Order
 
 REARM = Command(id=7, order=Order.REARM)
