@@ -165,6 +165,5 @@ class KeyResolver:
         if at in OTHER_HAND and other is not None:
             hand = self._poser.hands["L" if side == "R" else "R"]
             point = hand_point(hand, other.shape, OTHER_HAND[at])
-            anchor: FloatArray = other.wrist + other.hand @ (point - hand.wrist)
-            return anchor
+            return other.wrist + other.hand @ (point - hand.wrist)
         raise unknown_name("place", at, (*PLACES, *(f"{name} (one hand only)" for name in OTHER_HAND)))
