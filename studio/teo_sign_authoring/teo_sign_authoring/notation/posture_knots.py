@@ -176,12 +176,7 @@ class ScoreKnots:
     """Makes knots on one robot."""
 
     def __init__(self, robot: Robot, chain: ArmKinematics) -> None:
-        """Prepare.
-
-        Args:
-            robot: The robot.
-            chain: Its arm.
-        """
+        """Prepare for a robot and its arm."""
         self._humanoid, self._table = robot.humanoid, hand_table(robot)
         self._bounds: dict[Side, Bounds] = {
             "right": arm_bounds(robot.humanoid, "right"),

@@ -64,10 +64,6 @@ def find_written(
 ) -> tuple[list[WrittenEntry], dict[str, str]]:
     """Look entries up in a dictionary.
 
-    Args:
-        terms: Of the dictionary's entries, by gloss.
-        entries: Of the dictionary.
-
     Returns:
         What was found, and why not of the other glosses: "not_found", or "several" where the dictionary
         writes a term in several ways and nothing tells which is meant.

@@ -57,12 +57,6 @@ class LanguageSigns:
     """
 
     def __init__(self, language: Language, robot: Robot) -> None:
-        """Prepare.
-
-        Args:
-            language: The language.
-            robot: The robot.
-        """
         self.language, self.robot = language, robot
         self._rows = finger_rows(hand_table(robot).hand)
 
@@ -203,15 +197,6 @@ def transfer_table(
     done: Callable[[Transferred], None],
 ) -> list[Transferred]:
     """Make the signs of a table.
-
-    Args:
-        language: Code of the sign language.
-        robot: Name of the robot.
-        glosses: Which signs.
-        out: Directory of the table; made if it is not there.
-        replace: Whether entries that are there are made anew.
-        jobs: How many processes.
-        done: Called with each sign as it is done.
 
     Returns:
         What became of each, in the order of `glosses`.
