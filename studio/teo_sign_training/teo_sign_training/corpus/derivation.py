@@ -282,10 +282,6 @@ class Derivation:
     def sentence(self, rule: Rule, spread: Mapping[str, str]) -> GeneratedSentence:
         """Make a sentence of a rule.
 
-        Args:
-            rule: Of a family.
-            spread: The alternative of each spread slot.
-
         Raises:
             NoFillerError: Try again.
             TranslationError: "no_form" or "invalid_grammar".

@@ -27,7 +27,7 @@ from teo_sign_translator.pointer.decoding import SentenceModel, load_sentence_mo
 from teo_sign_translator.pointer.ensemble import member_weights
 
 #: Pairs of a held-out split that are translated to score a model: 2,000 give a standard error of 1 % at most.
-SCORED = 2000
+_SCORED = 2000
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,7 +120,7 @@ def train_model(
     Raises:
         TranslationError: "invalid_config", "invalid_data".
     """
-    dev = sample(data.held_out["dev"], SCORED, config.seed)
+    dev = sample(data.held_out["dev"], _SCORED, config.seed)
     columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn(), TimeRemainingColumn())
     with Progress(*columns, console=console) as bar:
         task = bar.add_task(name, total=config.epochs * network.members)
@@ -191,7 +191,7 @@ def train_model(
     save()
     model = load_sentence_model(name, out)
     scores = {
-        split: score_model(model, sample(pairs, SCORED, config.seed), read)
+        split: _score_model(model, sample(pairs, _SCORED, config.seed), read)
         for split, pairs in data.held_out.items()
         if pairs
     }
@@ -204,8 +204,7 @@ def train_model(
     return TrainedModel(model, fitted, scores, unknown)
 
 
-def score_model(model: SentenceModel, pairs: Sequence[Pair], read: Reader) -> Score:
-    """Translate pairs, the likeliest gloss each time, and compare."""
+def _score_model(model: SentenceModel, pairs: Sequence[Pair], read: Reader) -> Score:
     got = model.translate_all([read(pair.text) for pair in pairs])
     return score(
         [pair.glosses for pair in pairs],

@@ -184,12 +184,12 @@ class LstmModel:
 
 
 #: Of the cards of this kind of model.
-SCHEMA = 1
+_SCHEMA = 1
 
 
 def load_model(name: str, directory: Path | None = None) -> LstmModel:
     """Load a model; arguments and errors are those of `model_files.read_model`."""
-    return read_model(name, SCHEMA, directory, _built)
+    return read_model(name, _SCHEMA, directory, _built)
 
 
 def _built(card: dict[str, Any], weights: Weights) -> LstmModel:
@@ -217,4 +217,4 @@ def save_model(
         card: What else the card says.
     """
     lists = {"input": list(inputs.tokens), "output": list(outputs.tokens)}
-    write_model(name, directory, SCHEMA, weights, {**card, "vocabulary": lists}, indent=2)
+    write_model(name, directory, _SCHEMA, weights, {**card, "vocabulary": lists}, indent=2)
