@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from refusals import refused
-
 from teo_sign_training.cli.generate_corpus import FILE_NAME, run
 from teo_sign_training.corpus import read_pairs
 from teo_sign_translator.morphology.spanish import unaccented
@@ -42,8 +40,3 @@ def test_a_corpus_is_made_for_the_language_that_is_asked_for(tmp_path):
     assert len(pairs) > 150
     assert all(pair.text.isascii() and pair.glosses for pair in pairs)
     assert any("WHERE" in pair.glosses for pair in pairs)
-
-
-def test_a_language_that_is_not_there_is_refused(tmp_path):
-    with refused("unknown_language", "ase"):
-        run(out=tmp_path, pairs=200, language="xyz")
