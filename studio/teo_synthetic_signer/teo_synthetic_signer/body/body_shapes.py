@@ -65,12 +65,12 @@ class Phenotype:
 def shape_vertices(phenotype: Phenotype) -> FloatArray:
     """Give the mesh of such a person in the pose of the template [m]. Shape (n, 3)."""
     vertices = load_body_data().vertices.copy()
-    for name, weight in _target_weights(phenotype):
+    for name, weight in target_weights(phenotype):
         vertices += weight * load_target(name)
     return vertices
 
 
-def _target_weights(phenotype: Phenotype) -> Iterator[tuple[str, float]]:
+def target_weights(phenotype: Phenotype) -> Iterator[tuple[str, float]]:
     """Give the targets that make the person, each with its weight."""
     gender = _between(phenotype.gender, ((0.0, "male"), (1.0, "female")))
     age = _between(phenotype.age, _AGES)

@@ -12,7 +12,7 @@ from scipy.spatial import cKDTree
 
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_synthetic_signer.body.body_data import load_body_data
-from teo_synthetic_signer.body.body_shapes import Phenotype
+from teo_synthetic_signer.body.body_shapes import Phenotype, target_weights
 from teo_synthetic_signer.body.pose import BodyPose
 from teo_synthetic_signer.body.rig import PLACES
 from teo_synthetic_signer.body.signer import Signer
@@ -110,6 +110,17 @@ def test_people_have_the_size_of_people_and_places_where_their_names_say(name: s
     assert aside == sorted(aside)
     assert at["other_shoulder"][1] > 0.05 and at["other_chest"][1] > 0.05
     assert at["cheek"][0] > at["ear"][0] and at["throat"][0] < at["chin"][0]
+
+
+def test_target_weights_of_each_kind_sum_to_one() -> None:
+    sums: dict[str, float] = {}
+    for name, weight in target_weights(Phenotype(gender=0.3, age=0.8, weight=0.7, height=0.2, muscle=0.9)):
+        folder = (
+            name.split("/")[1] if name.count("/") > 1 else name.split("/")[1].split("-")[0] == "universal"
+        )
+        sums[str(folder)] = sums.get(str(folder), 0.0) + weight
+    assert len(sums) == 4
+    assert list(sums.values()) == pytest.approx([1.0] * 4)
 
 
 @pytest.mark.parametrize("wrong", [{"gender": 1.1}, {"age": 0.1}, {"african": 0, "asian": 0, "caucasian": 0}])
