@@ -36,7 +36,7 @@ _ENOUGH = 5e-4
 _FAR_APART = 0.7
 # Added to the way from the left hand to the right one: where they are one, they part to their sides [m].
 _TO_THE_RIGHT = np.array([0.0, -0.01, 0.0])
-# How far clothes stand off the trunk's skin [m]; see `signer.Dress`.
+# How far clothes stand off the trunk's skin [m]; see `signer`.
 _CLOTH = 0.006
 
 
