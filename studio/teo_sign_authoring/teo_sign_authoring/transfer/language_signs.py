@@ -49,12 +49,7 @@ _FOLDED = np.radians(125.0)
 
 
 class LanguageSigns:
-    """Makes them.
-
-    Attributes:
-        language: The language.
-        robot: The robot; not shared with another thread.
-    """
+    """Makes them; the robot is not shared with another thread."""
 
     def __init__(self, language: Language, robot: Robot) -> None:
         self.language, self.robot = language, robot

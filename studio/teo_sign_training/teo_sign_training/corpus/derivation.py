@@ -263,13 +263,7 @@ class GeneratedSentence(NamedTuple):
 
 @dataclass
 class Derivation:
-    """Derives sentences from rules; a `Chooser` decides at each place.
-
-    Attributes:
-        grammar: Rules.
-        words: Word lists.
-        chooser: Chooses.
-    """
+    """Derives sentences from rules; a `Chooser` decides at each place."""
 
     grammar: Grammar
     words: WordLists

@@ -160,13 +160,7 @@ class Shape:
 
 @dataclass(frozen=True, slots=True)
 class Family:
-    """Sentences of one construction.
-
-    Attributes:
-        name: Unique.
-        weight: How often, among the families.
-        rules: Its sentences.
-    """
+    """Sentences of one construction; its weight says how often, among the families."""
 
     name: str
     weight: float

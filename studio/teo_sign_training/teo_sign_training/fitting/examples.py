@@ -101,11 +101,7 @@ ROOT_ROW, BLANK_ROW = 0, 1
 
 @dataclass
 class ExampleReader:
-    """Collects pairs and the words that occur in them.
-
-    Attributes:
-        read: Reads sentences.
-    """
+    """Collects pairs and the words that occur in them."""
 
     read: Reader
     _rows: dict[SourceWord, int] = field(default_factory=dict)
