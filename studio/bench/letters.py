@@ -15,12 +15,7 @@ from teo_signs.look_up_table import Lut, default_lut_directory
 
 
 def measure(language: str = DEFAULT_LANGUAGE, robot: str = "teo") -> list[Figure]:
-    """How many letters are most like their own recording, which are not, and which look alike.
-
-    Args:
-        language: Code of the sign language.
-        robot: Name of the robot.
-    """
+    """How many letters are most like their own recording, which are not, and which look alike."""
     lut = Lut.open(default_lut_directory(language, robot), language=language, robot=robot)
     found = letter_likenesses(Robot.load(robot), lut.language, lut)
     captured = [one for one in found if one.posture == 0]

@@ -41,8 +41,7 @@ from teo_signs.likeness import nearest_pairs
 from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign import Sign
 from teo_synthetic_signer import Take, TakeOptions
-from teo_synthetic_signer.body.body_shapes import BODIES
-from teo_synthetic_signer.body.random_people import random_people
+from teo_synthetic_signer.body.body_shapes import BODIES, random_people
 from teo_synthetic_signer.errors import SyntheticError
 from teo_synthetic_signer.take.take_files import write_film
 

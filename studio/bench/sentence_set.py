@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from glosses.systems import judged, translating
-from report import Figure, share
+from glosses.systems import judged, right_shares, translating
+from report import Figure
 from teo_sign_languages import DEFAULT_LANGUAGE
 
 
@@ -19,11 +19,8 @@ def measure(name: str = "known", language: str = DEFAULT_LANGUAGE, wrong: int = 
     """The share that each system has right, then so many sentences that our model has wrong."""
     sentences = judged(name, language)
     every = translating(language)
-    for system, translate in every.items():
-        right = sum(translate(sentence) in accepted for sentence, accepted in sentences)
-        yield Figure(
-            f"{len(sentences)} sentences of {name} ({language}), {system}", share(right, len(sentences))
-        )
+    for system, right in right_shares(every, sentences).items():
+        yield Figure(f"{len(sentences)} sentences of {name} ({language}), {system}", right)
     for sentence, accepted in sentences:
         said = every["ours"](sentence)
         if wrong and said not in accepted:

@@ -25,7 +25,7 @@ from statistics import median
 import blind_sentences
 from glosses.annotated_signs import read_annotated
 from glosses.measures import overlap
-from glosses.systems import SENTENCES, System, judged, lines, plain, systems
+from glosses.systems import SENTENCES, System, judged, lines, plain, right_shares, systems
 from report import Figure, percentiles, share
 from teo_common.text_folding import without_accents
 from teo_sign_training.corpus import Pair
@@ -78,10 +78,7 @@ def _taught(systems: Mapping[str, System]) -> Iterable[Figure]:
 def _known(systems: Mapping[str, System], every: int) -> Iterable[Figure]:
     sentences = judged("known")[::every]
     counts = [len(accepted) for _, accepted in sentences]
-    right = {
-        name: share(sum(system(spanish) in accepted for spanish, accepted in sentences), len(sentences))
-        for name, system in systems.items()
-    }
+    right = right_shares(systems, sentences)
     accepts = f"accepted for each: median {median(counts):.0f}, most {max(counts)}"
     yield Figure(f"{len(sentences)} known sentences: accepted (95 % interval), {accepts}", _row(right))
 

@@ -21,8 +21,7 @@ from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.detectors import make_detector
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 from teo_synthetic_signer import Truth, render_take
-from teo_synthetic_signer.body.body_shapes import BODIES
-from teo_synthetic_signer.body.random_people import random_people
+from teo_synthetic_signer.body.body_shapes import BODIES, random_people
 
 _STEP = 1e-4  # [m] of stored depth: a twentieth of the camera's own noise, up to 6.5 m
 
@@ -65,8 +64,7 @@ class TakeFrame:
         """Give the depth [m], NaN where unknown. Shape (height, width)."""
         steps = cv2.imdecode(np.frombuffer(self.png, np.uint8), cv2.IMREAD_UNCHANGED)
         assert steps is not None
-        depth: DepthArray = np.where(steps > 0, steps * np.float32(_STEP), np.nan).astype(np.float32)
-        return depth
+        return np.where(steps > 0, steps * np.float32(_STEP), np.nan).astype(np.float32)
 
 
 def take(settings: TakeSettings, cache: Path) -> list[TakeFrame]:

@@ -13,6 +13,7 @@ from spoken_to_signed.text_to_gloss.simple import text_to_gloss
 
 from glosses.accepted_translations import accepted, plain_gloss
 from glosses.measures import Glosses
+from report import share
 from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.pipeline.translator import Translator
@@ -33,11 +34,7 @@ _STOP_WORDS = {
 
 
 def systems(ours: Translator | None = None) -> dict[str, System]:
-    """By name: our model, the paper's, the trivial baseline and a peer; glosses by their `plain_gloss`.
-
-    Args:
-        ours: The shipped translator by default.
-    """
+    """By name: our model, the paper's, the trivial baseline and a peer; glosses by their `plain_gloss`."""
     return {
         "ours": _translating(ours or Translator.load()),
         "paper's": _translating(Translator.load("lstm256")),
@@ -88,6 +85,14 @@ def translating(language: str) -> Mapping[str, System]:
 def lines(file: str) -> list[str]:
     """Lines of a file of test/data."""
     return (SENTENCES / file).read_text(encoding="utf-8").splitlines()
+
+
+def right_shares(every: Mapping[str, System], sentences: Judged) -> dict[str, str]:
+    """How many sentences each system translates as accepted, as `share` tells it."""
+    return {
+        name: share(sum(system(sentence) in accepted for sentence, accepted in sentences), len(sentences))
+        for name, system in every.items()
+    }
 
 
 def plain(glosses: Glosses) -> Glosses:

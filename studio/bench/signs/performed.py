@@ -21,8 +21,7 @@ from teo_sign_authoring.notation.score_file import default_scores_directory, rea
 from teo_sign_authoring.notation.score_schema import Score
 from teo_sign_capture.tracks.skeleton_track import HIP, SHOULDER, Keypoints, SkeletonTrack, in_body_axes
 from teo_skeleton_retriever.lifting.clip import Points, PoseClip
-from teo_synthetic_signer.body.body_shapes import BODIES
-from teo_synthetic_signer.body.random_people import random_people
+from teo_synthetic_signer.body.body_shapes import BODIES, random_people
 from teo_synthetic_signer.body.signer import Signer
 from teo_synthetic_signer.errors import SyntheticError
 from teo_synthetic_signer.script.keys import Key

@@ -12,6 +12,7 @@ import pytest
 from typer.testing import CliRunner
 
 from teo_skeleton_retriever.camera.camera_model import CameraModel
+from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_synthetic_signer.camera.sensors import SENSORS
 from teo_synthetic_signer.cli.sensor_study import DISTANCES, Study, _app, seen_share, write_csv
 
@@ -21,14 +22,14 @@ D435 = SENSORS["d435"]
 
 def share(distance: float, camera: CameraModel = WIDE, farthest: float = 10.0) -> float:
     """Of a person 1.7 m tall who faces a camera at the height of the chest."""
-    chest = np.array([0.0, 0.0, distance])
-    return seen_share(
-        camera,
-        replace(D435, farthest=farthest),
-        nose=chest + np.array([0.0, -0.2, -0.1]),
-        hips=chest + np.array([0.0, 0.5, 0.0]),
-        shoulders=(chest + np.array([-0.18, 0.0, 0.0]), chest + np.array([0.18, 0.0, 0.0])),
-    )
+    from_chest = {
+        "Nose": (0.0, -0.2, -0.1), "MidHip": (0.0, 0.5, 0.0),
+        "RShoulder": (-0.18, 0.0, 0.0), "LShoulder": (0.18, 0.0, 0.0),
+    }  # fmt: skip
+    body = np.full((25, 3), math.nan)
+    for name, way in from_chest.items():
+        body[BODY_25.index[name]] = np.array([0.0, 0.0, distance]) + way
+    return seen_share(camera, replace(D435, farthest=farthest), body)
 
 
 def test_a_camera_sees_all_of_the_signing_space_from_afar_less_from_near_and_nothing_out_of_range() -> None:

@@ -23,13 +23,6 @@ from teo_signs.errors import LutError
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Handedness, Provenance
 
-# Right arm [deg], from the shoulder on, while TEO spells.
-SPELLING_POSES = {
-    "T": (-73.2, 10.7, 10.6, -74.6, 34.7, 1.9),
-    "E": (-75.4, 12.4, 9.6, -83.5, 86.2, 2.3),
-    "O": (-73.4, 10.5, 13.1, -83.5, 25.7, -0.9),
-}
-
 _PAUSE = 0.5  # [s], after each sign of the demonstration
 # Every motor at rest, tendons slack: the thumb stands out from the straight fingers.
 _OPEN_HAND = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)

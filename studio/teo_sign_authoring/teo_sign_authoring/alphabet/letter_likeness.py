@@ -23,7 +23,7 @@ from teo_motion.planner import Planner
 from teo_motion.sentence.plan import sample_at
 from teo_motion.sentence.posture_choice import postures_of
 from teo_sign_authoring.alphabet.letter_clips import LetterClip, find_stroke
-from teo_sign_authoring.alphabet.letters import read_alphabet
+from teo_sign_authoring.alphabet.letters import RecordedAlphabet, read_alphabet
 from teo_sign_capture.signing_space import finger_rows
 from teo_sign_languages import Language
 from teo_signs.likeness import SEEN_ANGLE, SEEN_LENGTH
@@ -37,17 +37,16 @@ from teo_skeleton_retriever.lifting.hand_axes import KNUCKLES, THUMB, palm_axes
 _SEEN_MOVEMENT = SEEN_LENGTH / 2.0
 
 
-def recorded_features(clip: LetterClip, scale: float, fingers: Sequence[int] = range(4)) -> Array:
-    """What the person shows, in the robot's size, from where the hand is in place to where it leaves.
+def recordings(robot: Robot, alphabet: RecordedAlphabet) -> dict[str, Array]:
+    """`features` of each letter's recording, of the fingers that the robot has, in its size."""
+    knuckles = [KNUCKLES[finger] for finger in finger_rows(HandGeometry(robot))]
+    return {letter: _recorded(clip, alphabet.scale, knuckles) for letter, clip in alphabet.clips.items()}
 
-    Args:
-        clip: The recording.
-        scale: Metres of the robot's for a pixel of the recording.
-        fingers: Which of the four are looked at, index 0: those that the robot has.
-    """
+
+def _recorded(clip: LetterClip, scale: float, shown: Sequence[int]) -> Array:
+    """What the person shows, from where the hand is in place to where it leaves; a pixel is `scale` [m]."""
     stroke = find_stroke(clip)
     hand = scale * clip.hand[stroke.first : stroke.last + 1]
-    shown = [KNUCKLES[finger] for finger in fingers]
     ends = np.stack([hand[:, [knuckle + end for knuckle in shown]] for end in (0, 2, 3)], axis=1)
     return features(palm_axes(hand), ends, hand[:, THUMB + 3])
 
@@ -118,28 +117,19 @@ class Likeness:
 
 
 def letter_likenesses(robot: Robot, language: Language, letters: Mapping[str, Sign]) -> list[Likeness]:
-    """Letters of a robot against every recording.
-
-    Args:
-        robot: The robot.
-        language: Whose letters they are.
-        letters: The robot's entries; other signs among them are passed over.
+    """Letters of a robot against every recording; other signs among its entries are passed over.
 
     Raises:
         LutError: As `read_alphabet`.
     """
-    alphabet = read_alphabet(robot, language)
-    rows = finger_rows(HandGeometry(robot))
-    recorded = {
-        letter: recorded_features(clip, alphabet.scale, rows) for letter, clip in alphabet.clips.items()
-    }
+    recorded = recordings(robot, read_alphabet(robot, language))
     return [
         Likeness(
             letter=letter,
             posture=posture,
             distances={name: warp(played, clip).distance for name, clip in recorded.items()},
         )
-        for letter in alphabet.clips
+        for letter in recorded
         if letter in letters
         for posture, knots in enumerate(postures_of(letters[letter]))
         for played in [_played(robot, replace(letters[letter], knots=knots, alternatives=()))]

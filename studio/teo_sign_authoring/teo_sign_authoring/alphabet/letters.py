@@ -114,11 +114,6 @@ def _recordings(language: Language) -> LetterClips:
 def capture_letter(robot: Robot, alphabet: RecordedAlphabet, letter: str) -> Sign:
     """Make one letter a robot's.
 
-    Args:
-        robot: The robot.
-        alphabet: The clips and what they share.
-        letter: Which of them.
-
     Raises:
         LutError: The reason in `RecordedAlphabet.refused`, of this letter or one that it is made after.
     """

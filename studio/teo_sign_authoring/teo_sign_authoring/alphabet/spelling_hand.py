@@ -202,8 +202,7 @@ class HandProblem:
 
     def _seen(self, robot: Array, person: Array) -> Array:
         """Difference across the viewer's line of sight: left and up."""
-        away: Array = (robot @ self._palm.T - person @ self._seen_as.T)[..., 1:]
-        return away
+        return (robot @ self._palm.T - person @ self._seen_as.T)[..., 1:]
 
 
 def _finger(bends: Array, spread: float, phalanges: Array) -> Array:

@@ -7,18 +7,15 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator
 from functools import partial
 from pathlib import Path
-from typing import Annotated, NoReturn
+from typing import Annotated
 
 import typer
-from rich.console import Console
 
-from teo_common.errors import CodedError
 from teo_description.errors import DescriptionError
-from teo_description.hand_geometry import hand_table
 from teo_description.humanoid import DEFAULT_ROBOT
 from teo_description.robot import Robot
+from teo_sign_authoring.cli.command import chosen_scores, errors, fail, output, run_command
 from teo_sign_capture.cli.options import LanguageCode, RobotName
-from teo_sign_capture.signing_space import finger_rows
 from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
 from teo_signs.errors import LutError, PlanError
 from teo_signs.look_up_table import Lut
@@ -27,9 +24,6 @@ from teo_signs.sign_file import save_sign
 
 _Out = Annotated[Path, typer.Option(help="Directory of the table to write into; made if it is not there.")]
 _Replace = Annotated[bool, typer.Option(help="Replace entries that are there already.")]
-
-_output = Console(highlight=False)
-_errors = Console(stderr=True, highlight=False)
 
 
 def capture_letters(
@@ -47,12 +41,12 @@ def capture_letters(
     try:
         alphabet = read_alphabet(robot, load_language(language))
     except (LanguageError, LutError) as error:
-        _fail(error)
+        fail(error)
     known = alphabet.language.alphabet.letters
     unknown = [letter for letter in only or [] if letter not in known]
     if unknown:
         message = f"expected letters among {', '.join(known)}; got {', '.join(unknown)}"
-        _fail(LutError("unknown_letter", message))
+        fail(LutError("unknown_letter", message))
     _save_all(
         only or known, lambda letter: capture_letter(robot, alphabet, letter), out, "letters", replace=replace
     )
@@ -64,7 +58,7 @@ def ease_letters(
     robot: RobotName = DEFAULT_ROBOT,
 ) -> None:
     """Give each letter of a table the posture with which spelling needs least travel, as its alternative."""
-    from teo_sign_authoring.alphabet.letter_likeness import recorded_features
+    from teo_sign_authoring.alphabet.letter_likeness import recordings
     from teo_sign_authoring.alphabet.letters import read_alphabet
     from teo_sign_authoring.easing.easy_letters import ease_letters as easier_offsets
     from teo_sign_authoring.easing.easy_letters import with_easy_posture
@@ -74,20 +68,17 @@ def ease_letters(
         speller = Robot.load(robot)
         table = Lut.open(lut, language=language, robot=robot)
         alphabet = read_alphabet(speller, table.language)
-        rows = finger_rows(hand_table(speller).hand)
-        recordings = {
-            letter: recorded_features(clip, alphabet.scale, rows) for letter, clip in alphabet.clips.items()
-        }
-        letters = {letter: table[letter] for letter in alphabet.clips if letter in table}
-        tolerances = {letter: LetterTolerance(speller, sign, recordings) for letter, sign in letters.items()}
+        recorded = recordings(speller, alphabet)
+        letters = {letter: table[letter] for letter in recorded if letter in table}
+        tolerances = {letter: LetterTolerance(speller, sign, recorded) for letter, sign in letters.items()}
         offsets = easier_offsets(speller, table.language.alphabet, tolerances)
     except (LutError, DescriptionError) as error:
-        _fail(error)
+        fail(error)
     eased = (with_easy_posture(sign, offsets[letter]) for letter, sign in letters.items())
     _save(eased, lut, replace=True)
     missing = [letter for letter in table.language.alphabet.letters if letter not in letters]
     if missing:
-        _errors.print(f"not eased, for the table has none: {', '.join(missing)}", soft_wrap=True)
+        errors.print(f"not eased, for the table has none: {', '.join(missing)}", soft_wrap=True)
 
 
 def capture_numbers(out: _Out, language: LanguageCode = DEFAULT_LANGUAGE, replace: _Replace = False) -> None:
@@ -101,7 +92,7 @@ def capture_numbers(out: _Out, language: LanguageCode = DEFAULT_LANGUAGE, replac
         numbers = [score for score in read_scores(found.scores) if score.kind == "number"]
         _save((score_sign(robot, score, language=found.code) for score in numbers), out, replace=replace)
     except (LanguageError, LutError) as error:
-        _fail(error)
+        fail(error)
 
 
 def capture_demonstration(out: _Out, replace: _Replace = False) -> None:
@@ -123,41 +114,30 @@ def capture_scores(
     replace: _Replace = False,
 ) -> None:
     """Bring sign scores, written descriptions of signs, onto TEO; what it cannot sign alone is left out."""
-    from teo_sign_authoring.notation.score_file import read_scores
     from teo_sign_authoring.notation.score_retarget import score_sign
     from teo_sign_authoring.transfer.language_signs import played_alone
 
     robot = Robot.load()
     try:
         signed = load_language(language)
-        found = {score.gloss: score for score in read_scores(scores or signed.scores)}
-        unknown = [gloss for gloss in only or [] if gloss not in found]
-        if unknown:
-            message = f"expected glosses with a score ({len(found)} there are), got {', '.join(unknown)}"
-            raise LutError("unknown_sign", message)
+        chosen = chosen_scores(scores or signed.scores, only)
     except (LanguageError, LutError) as error:
-        _fail(error)
+        fail(error)
 
     def made(gloss: str) -> Sign:
-        sign = score_sign(robot, found[gloss], language=signed.code)
+        sign = score_sign(robot, chosen[gloss], language=signed.code)
         played_alone(robot, sign)
         return sign
 
-    _save_all(only or found, made, out, "scores", replace=replace)
-
-
-def _run(command: Callable[..., None]) -> None:
-    app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
-    app.command()(command)
-    app()
+    _save_all(chosen, made, out, "scores", replace=replace)
 
 
 # What the entry points call.
-letters_main = partial(_run, capture_letters)
-ease_letters_main = partial(_run, ease_letters)
-numbers_main = partial(_run, capture_numbers)
-demonstration_main = partial(_run, capture_demonstration)
-scores_main = partial(_run, capture_scores)
+letters_main = partial(run_command, capture_letters)
+ease_letters_main = partial(run_command, ease_letters)
+numbers_main = partial(run_command, capture_numbers)
+demonstration_main = partial(run_command, capture_demonstration)
+scores_main = partial(run_command, capture_scores)
 
 
 def _save_all(
@@ -172,12 +152,12 @@ def _save_all(
                 yield made(gloss)
             except (LutError, PlanError) as error:
                 failed.append(gloss)
-                _errors.print(f"{error.code}: {error}", soft_wrap=True)
+                errors.print(f"{error.code}: {error}", soft_wrap=True)
 
     _save(signs(), out, replace=replace)
     if failed:
         left = f"{len(failed)} of {len(glosses)} {what} left out: {', '.join(failed)}"
-        _errors.print(left, soft_wrap=True)
+        errors.print(left, soft_wrap=True)
         raise typer.Exit(1)
 
 
@@ -186,15 +166,10 @@ def _save(signs: Iterable[Sign], out: Path, *, replace: bool) -> None:
         try:
             path = save_sign(out, sign, replace=replace)
         except LutError as error:
-            _fail(error)
+            fail(error)
         except OSError as error:
-            _fail(LutError("not_written", f"--out: expected a place to write to, got: {error}"))
+            fail(LutError("not_written", f"--out: expected a place to write to, got: {error}"))
         figures = "  ".join(f"{name} {value:g}" for name, value in sign.quality.items())
-        _output.print(
+        output.print(
             f"{path.name:12} {len(sign.times):2} knots {sign.duration:5.2f} s  {figures}", soft_wrap=True
         )
-
-
-def _fail(error: CodedError) -> NoReturn:
-    _errors.print(f"{error.code}: {error}", soft_wrap=True)
-    raise typer.Exit(1) from error

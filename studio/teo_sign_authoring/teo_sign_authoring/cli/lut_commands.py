@@ -7,15 +7,14 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, NoReturn
+from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
 from rich.progress import Progress, track
 from rich.table import Table
 
-from teo_common.errors import CodedError
 from teo_description.errors import DescriptionError
+from teo_sign_authoring.cli.command import errors, fail, output
 from teo_sign_capture.cli.options import LanguageCode, RobotName
 from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
 from teo_signs.errors import LutError
@@ -24,9 +23,7 @@ from teo_signs.look_up_table import Lut, user_lut_directory
 if TYPE_CHECKING:  # they take a second to load, which the other commands of `lut` need not wait for
     from teo_sign_authoring.alphabet.letter_likeness import Likeness
     from teo_sign_authoring.transfer.fit import SignFit
-
-_output = Console(highlight=False)
-_errors = Console(stderr=True, highlight=False)
+    from teo_sign_authoring.transfer.language_signs import LanguageSigns
 
 
 def ease(
@@ -48,16 +45,16 @@ def ease(
         # A table of a few signs stands among those of the package.
         easy = EasyTable(Robot.load(), dict(Lut.open()) | dict(table))
         chosen = [table[gloss] for gloss in glosses or table]
-        hidden = not _errors.is_terminal
-        for sign in track(chosen, "easing", console=_errors, transient=True, disable=hidden):
+        hidden = not errors.is_terminal
+        for sign in track(chosen, "easing", console=errors, transient=True, disable=hidden):
             if sign.kind != "lexical":
                 continue
             easier = easy.eased(sign)
             save_sign(directory, easier, replace=True)
             eased += bool(easier.alternatives)
     except LutError as error:
-        _fail(error)
-    _output.print(f"{directory}: {eased} of {len(chosen)} signs have an easier posture")
+        fail(error)
+    output.print(f"{directory}: {eased} of {len(chosen)} signs have an easier posture")
 
 
 def retarget(
@@ -83,30 +80,27 @@ def retarget(
     from teo_sign_authoring.transfer.language_signs import LanguageSigns, Transferred, transfer_table
 
     try:
-        known = LanguageSigns(load_language(language), Robot.load(robot)).glosses
-        unknown = [gloss for gloss in glosses or [] if gloss not in known]
-        if unknown:
-            message = f"expected signs of {language} ({len(known)} there are), got {', '.join(unknown)}"
-            raise LutError("unknown_sign", message)
+        signs = LanguageSigns(load_language(language), Robot.load(robot))
+        chosen = tuple(glosses or signs.glosses)
+        _check_known(chosen, signs)
         table = out or user_lut_directory(language, robot)
         if table.is_dir():  # what is there stays, if it is of this language and robot
             Lut.open(table, language=language, robot=robot)
     except (LanguageError, LutError, DescriptionError) as error:
-        _fail(error)
-    chosen = tuple(glosses or known)
-    with Progress(console=_errors, transient=True) as progress:
+        fail(error)
+    with Progress(console=errors, transient=True) as progress:
         task = progress.add_task(f"{language} for {robot}", total=len(chosen))
 
         def done(sign: Transferred) -> None:
             progress.advance(task)
             if sign.refused:
-                _errors.print(f"{sign.code}: {sign.message}", markup=False, soft_wrap=True)
+                errors.print(f"{sign.code}: {sign.message}", markup=False, soft_wrap=True)
 
         count = jobs or os.cpu_count() or 1
         found = transfer_table(language, robot, chosen, table, replace=replace, jobs=count, done=done)
     refused = sum(sign.refused for sign in found)
     made = sum(sign.code == "made" for sign in found)
-    _output.print(
+    output.print(
         f"{table}: {made} signs made, {len(found) - made - refused} there already, {refused} refused",
         soft_wrap=True,
     )
@@ -148,18 +142,13 @@ def fit(
         signs = LanguageSigns(load_language(language), Robot.load(robot))
         alphabet = [letter for letter in signs.language.alphabet.letters if letter in signs.glosses]
         chosen = tuple(glosses or (alphabet if letters else signs.glosses))
-        unknown = [gloss for gloss in chosen if gloss not in signs.glosses]
-        if unknown:
-            message = (
-                f"expected signs of {language} ({len(signs.glosses)} there are), got {', '.join(unknown)}"
-            )
-            raise LutError("unknown_sign", message)
+        _check_known(chosen, signs)
         kept = entries(language, robot, lut)
         beyond = set()
         for letter, reason in signs.letters_beyond(chosen):
-            _output.print(reason, markup=False, soft_wrap=True)
+            output.print(reason, markup=False, soft_wrap=True)
             beyond.add(letter)
-        with Progress(console=_errors, transient=True) as progress:
+        with Progress(console=errors, transient=True) as progress:
             task = progress.add_task(f"{language} on {robot}", total=len(chosen))
 
             def done(_: SignFit) -> None:
@@ -170,17 +159,24 @@ def fit(
         made = {letter: kept[letter] if letter in kept else signs.sign(letter) for letter in spelled}
         likenesses = letter_likenesses(signs.robot, signs.language, made) if made else []
     except (LanguageError, LutError, DescriptionError) as error:
-        _fail(error)
+        fail(error)
     _print_rows([found for found in fits if everything or not found.within])
     for found in fits:
         if found.refused and found.gloss not in beyond:
-            _output.print(f"{found.refused}: {found.reason}", markup=False, soft_wrap=True)
+            output.print(f"{found.refused}: {found.reason}", markup=False, soft_wrap=True)
     confused = [one for one in likenesses if one.posture == 0 and not one.right]
     for one in confused:
-        _output.print(f"{one.letter} looks more like {one.ranking[0]} than like itself")
+        output.print(f"{one.letter} looks more like {one.ranking[0]} than like itself")
     _print_summary(f"{signs.language.names.en} on {signs.robot.humanoid.file.title}", fits, likenesses)
     if confused or any(found.refused for found in fits):
         raise typer.Exit(1)
+
+
+def _check_known(glosses: Sequence[str], signs: LanguageSigns) -> None:
+    unknown = [gloss for gloss in glosses if gloss not in signs.glosses]
+    if unknown:
+        there = f"signs of {signs.language.code} ({len(signs.glosses)} there are)"
+        raise LutError("unknown_sign", f"expected {there}, got {', '.join(unknown)}")
 
 
 def _print_rows(fits: Sequence[SignFit]) -> None:
@@ -195,7 +191,7 @@ def _print_rows(fits: Sequence[SignFit]) -> None:
             ["-"] * 5 if found.refused else [*(f"{figure:.0f}" for figure in figures), f"{found.stretch:.2f}"]
         )
         table.add_row(found.gloss, found.kind, *cells, found.refused)
-    _output.print(table)
+    output.print(table)
 
 
 def _print_summary(title: str, fits: Sequence[SignFit], likenesses: Sequence[Likeness]) -> None:
@@ -216,9 +212,4 @@ def _print_summary(title: str, fits: Sequence[SignFit], likenesses: Sequence[Lik
     )
     if refused < len(fits):
         table.add_row("times as long as asked for, median", f"{median_stretch(fits):.2f}")
-    _output.print(table)
-
-
-def _fail(error: CodedError) -> NoReturn:
-    _errors.print(f"{error.code}: {error}", markup=False, soft_wrap=True)
-    raise typer.Exit(1) from error
+    output.print(table)

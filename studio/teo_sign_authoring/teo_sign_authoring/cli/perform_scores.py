@@ -13,13 +13,12 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 from teo_common.atomic_files import write_atomically
+from teo_sign_authoring.cli.command import chosen_scores, errors, fail, output, run_command
 from teo_sign_authoring.notation.performance import performance
-from teo_sign_authoring.notation.score_file import default_scores_directory, read_scores
-from teo_sign_authoring.notation.score_schema import Score
+from teo_sign_authoring.notation.score_file import default_scores_directory
 from teo_sign_capture.entries.batch import workers
 from teo_signs.errors import LutError
 from teo_synthetic_signer.cli.synthesize_cli import parsed_size
@@ -31,9 +30,6 @@ from teo_synthetic_signer.take.take_files import write_take
 _TWICE_A_SIGNS_FASTEST = 15.0
 # [m] A hand that is nearer than this to its place is there.
 _WORTH_SAYING = 0.02
-
-_output = Console(highlight=False)
-_errors = Console(stderr=True, highlight=False)
 
 
 def perform_scores(
@@ -70,20 +66,18 @@ def perform_scores(
     """
     width, height = parsed_size(size)
     try:
-        chosen = _chosen(scores, only)
+        chosen = chosen_scores(scores or default_scores_directory(), only)
         out.mkdir(parents=True, exist_ok=True)
-        for score in chosen:
-            write_atomically(out / f"{score.gloss}.yaml", performance(score).text.encode())
+        for gloss, score in chosen.items():
+            write_atomically(out / f"{gloss}.yaml", performance(score).text.encode())
     except LutError as error:
-        _errors.print(f"{error.code}: {error}", soft_wrap=True)
-        raise typer.Exit(1) from error
+        fail(error)
     except OSError as error:
-        _errors.print(f"not_written: --out: expected a place to write to, got: {error}", soft_wrap=True)
-        raise typer.Exit(1) from error
+        fail(LutError("not_written", f"--out: expected a place to write to, got: {error}"))
     if scripts_only:
-        _output.print(f"{out}: {len(chosen)} scripts", soft_wrap=True)
+        output.print(f"{out}: {len(chosen)} scripts", soft_wrap=True)
         return
-    open_ones = [score.gloss for score in chosen if replace or not (out / score.gloss).exists()]
+    open_ones = [gloss for gloss in chosen if replace or not (out / gloss).exists()]
     options = partial(
         TakeOptions,
         body=body,
@@ -97,28 +91,19 @@ def perform_scores(
     )
     failed = _performed(partial(_perform, out, options, truth_only), open_ones, jobs)
     for gloss, reason in failed.items():
-        _errors.print(f"not_performed: {gloss}: {reason}", soft_wrap=True, markup=False)
+        errors.print(f"not_performed: {gloss}: {reason}", soft_wrap=True, markup=False)
     kept = len(chosen) - len(open_ones)
     made = len(open_ones) - len(failed)
-    _output.print(f"{out}: {made} signs performed" + f", {kept} kept" * bool(kept), soft_wrap=True)
+    output.print(f"{out}: {made} signs performed" + f", {kept} kept" * bool(kept), soft_wrap=True)
     if failed:
         raise typer.Exit(1)
-
-
-def _chosen(directory: Path | None, only: list[str] | None) -> list[Score]:
-    found = {score.gloss: score for score in read_scores(directory or default_scores_directory())}
-    unknown = [gloss for gloss in only or [] if gloss not in found]
-    if unknown:
-        message = f"expected glosses with a score ({len(found)} there are), got {', '.join(unknown)}"
-        raise LutError("unknown_sign", message)
-    return [found[gloss] for gloss in only or found]
 
 
 def _performed(perform: Callable[[str], tuple[str, float]], glosses: list[str], jobs: int) -> dict[str, str]:
     """Perform signs, several at a time in as many processes. Returns what was in the way, by gloss."""
     columns = (TextColumn("performing"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     failed: dict[str, str] = {}
-    with ExitStack() as stack, Progress(*columns, console=_errors) as progress:
+    with ExitStack() as stack, Progress(*columns, console=errors) as progress:
         task = progress.add_task("", total=len(glosses))
         performing = stack.enter_context(workers(jobs, None)).map if jobs > 1 else map
         for gloss, (reason, shortfall) in zip(glosses, performing(perform, glosses), strict=True):
@@ -126,7 +111,7 @@ def _performed(perform: Callable[[str], tuple[str, float]], glosses: list[str], 
                 failed[gloss] = reason
             elif shortfall > _WORTH_SAYING:  # what a viewer of the recording should know
                 said = f"{gloss}: hands stay up to {100.0 * shortfall:.0f} cm off places out of reach"
-                _errors.print(said, soft_wrap=True, markup=False)
+                errors.print(said, soft_wrap=True, markup=False)
             progress.advance(task)
     return failed
 
@@ -158,9 +143,7 @@ def _perform(
 
 def main() -> None:
     """Run `perform_scores`."""
-    app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
-    app.command()(perform_scores)
-    app()
+    run_command(perform_scores)
 
 
 if __name__ == "__main__":

@@ -12,17 +12,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
 
-from teo_sign_capture.cli.reporting import JsonReporter, Reporter, TerminalReporter, fail, write_json
+from teo_sign_authoring.cli.command import errors, fail, output, run_command
+from teo_sign_capture.cli.reporting import JsonReporter, Reporter, TerminalReporter, write_json
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import Lut, holding_tables, user_lut_directory
 
 if TYPE_CHECKING:
     from teo_sign_authoring.signwriting.dictionary_import import ImportJob, ImportOutcome, ImportSettings
-
-_output = Console(highlight=False)
-_errors = Console(stderr=True, highlight=False)
 
 
 def draw_signwriting(
@@ -52,7 +49,7 @@ def draw_signwriting(
             except LutError as error:
                 missing[entry.gloss] = error.code
         for gloss, code in sorted(missing.items()):
-            _errors.print(f'{code}: {gloss}: entry "{terms[gloss]}"', soft_wrap=True, markup=False)
+            errors.print(f'{code}: {gloss}: entry "{terms[gloss]}"', soft_wrap=True, markup=False)
         if not drawings:
             raise LutError(
                 "nothing_drawn",
@@ -63,7 +60,7 @@ def draw_signwriting(
         fail(error)
     except OSError as error:
         fail(LutError("not_written", f"{folder}: expected a place to write to, got: {error}"))
-    _output.print(
+    output.print(
         f"{folder}: {len(drawings)} of {len(terms)} signs drawn that name an entry of the dictionary",
         soft_wrap=True,
         markup=False,
@@ -79,7 +76,7 @@ def _terms(table: Lut) -> dict[str, str]:
         try:
             term = named_term(table[gloss].provenance.source)
         except LutError as error:
-            _errors.print(f"{error.code}: {error}", soft_wrap=True, markup=False)
+            errors.print(f"{error.code}: {error}", soft_wrap=True, markup=False)
             continue
         if term is not None:
             terms[gloss] = term
@@ -197,7 +194,7 @@ def _tell(outcomes: list[ImportOutcome], settings: ImportSettings, as_json: bool
         written = {"table": str(settings.table), "entries": len(outcomes), **counts}
         write_json({**written, "refused": refused, "skipped": skipped}, sys.stdout)
         return
-    _output.print(
+    output.print(
         f"{settings.table}: of {len(outcomes)} entries {results['whole']} compiled whole, "
         f"{results['with_losses']} with losses, {results['as_before']} as before, "
         f"{results['refused']} refused, {results['skipped']} skipped",
@@ -207,11 +204,9 @@ def _tell(outcomes: list[ImportOutcome], settings: ImportSettings, as_json: bool
     for (result, code), count in reasons.most_common():
         example = next(outcome for outcome in outcomes if outcome.code == code)
         line = f"  {result}: {count} {code}: {example.term}: {example.message}"
-        _output.print(line, soft_wrap=True, markup=False)
+        output.print(line, soft_wrap=True, markup=False)
 
 
 def draw_main() -> None:
     """Run `draw_signwriting`."""
-    app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
-    app.command()(draw_signwriting)
-    app()
+    run_command(draw_signwriting)

@@ -12,18 +12,16 @@ from typing import Annotated
 import numpy as np
 import safetensors.numpy
 import typer
-from rich.console import Console
 from rich.progress import track
 
 from teo_common.atomic_files import write_atomically
+from teo_sign_authoring.cli.command import output
 from teo_sign_authoring.notation.score_file import default_scores_directory, read_scores
 from teo_sign_authoring.notation.score_schema import Score
 from teo_sign_authoring.sight.fitting import arm_examples, fit, hand_examples
 from teo_sign_authoring.sight.rendered_people import RenderedPerson, rendered_person
 from teo_signs.errors import LutError
 from teo_skeleton_retriever.lifting.network import FILE
-
-_output = Console(highlight=False)
 
 
 def train_lifting(
@@ -38,7 +36,7 @@ def train_lifting(
     shown = render(range(people), examples, jobs)
     weights = fit("arms", arm_examples(shown, np.random.default_rng(0))) | fit("hands", hand_examples(shown))
     write_atomically(out, safetensors.numpy.save(weights))
-    _output.print(f"{out}: networks of {len(shown)} people", soft_wrap=True)
+    output.print(f"{out}: networks of {len(shown)} people", soft_wrap=True)
 
 
 def render(numbers: range, examples: Path, jobs: int) -> list[RenderedPerson]:
@@ -49,7 +47,7 @@ def render(numbers: range, examples: Path, jobs: int) -> list[RenderedPerson]:
     make = partial(_person, scores=scores, folder=examples)
     # MediaPipe's threads do not survive a fork.
     with get_context("spawn").Pool(jobs) as pool:
-        found = track(pool.imap(make, numbers), "people", len(numbers), console=_output)
+        found = track(pool.imap(make, numbers), "people", len(numbers), console=output)
         return [person for person in found if person is not None]
 
 

@@ -37,11 +37,6 @@ def ease_letters(
 ) -> dict[str, Array]:
     """Offsets of the letters with which spelling needs least travel.
 
-    Args:
-        robot: The robot.
-        alphabet: The language's, with how often each letter is spelled.
-        tolerances: Of its letters, as far as there are such.
-
     Returns:
         By letter, what is added to every knot [rad]. Shape (m,) each.
 

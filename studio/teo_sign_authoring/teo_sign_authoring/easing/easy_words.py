@@ -62,10 +62,7 @@ class Neighbours(NamedTuple):
 def neighbours(humanoid: Humanoid, table: Mapping[str, Sign], knot: int) -> Neighbours:
     """What comes before (knot -1) or after (knot 0) a word, about: words, spelled words and rest.
 
-    Args:
-        humanoid: The robot.
-        table: The table, of whose words and letters some are taken at random.
-        knot: With which knot they meet the word.
+    Of the table's words and letters some are taken at random; with `knot` they meet the word.
     """
     random = np.random.default_rng(0)
     rest = humanoid.ready
@@ -86,14 +83,7 @@ class EasyWords:
     def __init__(
         self, humanoid: Humanoid, limits: MotionLimits, before: Neighbours, after: Neighbours
     ) -> None:
-        """Prepare.
-
-        Args:
-            humanoid: The robot.
-            limits: Limits of the joints, of which velocity counts here.
-            before: What comes before any word.
-            after: What comes after.
-        """
+        """Prepare for what comes before and after any word; of the limits velocity counts."""
         self._humanoid, self._speeds = humanoid, limits.velocity
         self._before, self._after = before, after
 
@@ -115,15 +105,6 @@ class EasyWords:
                 if kept and word.contacts.kept(found) and accepted(knots := word.arms.knots(found)):
                     return knots
         return None
-
-    def _shared(
-        self, word: WordTolerance, neighbours: Neighbours
-    ) -> tuple[list[int], NDArray[np.bool_], Array]:
-        """Columns of a word's joints, which of them each neighbour fixes, and where, as right arms."""
-        columns = self._humanoid.columns(word.arms.sign.joints[column] for column in word.arms.columns)
-        theirs = neighbours.postures[:, columns]
-        shared = np.isfinite(theirs)
-        return columns, shared, word.arms.as_right(np.where(shared, theirs, 0.0))
 
     def _program(self, word: WordTolerance, postures: Array, step: float, *, hands: bool) -> Array:
         """Solve for the postures within a step of those given, hands included or not."""
@@ -147,7 +128,9 @@ class EasyWords:
         rate = np.diag(1.0 / speeds)
         for end, neighbours in ((0, self._before), (-1, self._after)):
             posture = int(word.arms.at[end])
-            _, shared, theirs = self._shared(word, neighbours)
+            theirs = neighbours.postures[:, columns]
+            shared = np.isfinite(theirs)  # the joints that a neighbour fixes
+            theirs = word.arms.as_right(np.where(shared, theirs, 0.0))
             for number, weight in enumerate(neighbours.weights.tolist()):
                 joints = np.flatnonzero(shared[number])
                 if not joints.size:
@@ -159,8 +142,7 @@ class EasyWords:
         lower = np.maximum(word.lower - postures, -steps).ravel()
         upper = np.minimum(word.upper - postures, steps).ravel()
         change = table.solved(np.minimum(lower, 0.0), np.maximum(upper, 0.0))
-        solved: Array = postures + change.reshape(postures.shape)
-        return solved
+        return postures + change.reshape(postures.shape)
 
     def _strokes(self, word: WordTolerance) -> dict[tuple[int, int], tuple[float, int]]:
         """Pairs of postures between which the arms move, with the least time of it [s], and how often."""
@@ -193,12 +175,7 @@ class EasyTable:
     """Eases the words of one table."""
 
     def __init__(self, robot: Robot, table: Mapping[str, Sign]) -> None:
-        """Prepare.
-
-        Args:
-            robot: Not shared with another thread.
-            table: The signs among which the words stand.
-        """
+        """Prepare for the signs among which the words stand; the robot is not shared with another thread."""
         self._robot = robot
         humanoid = robot.humanoid
         before, after = (neighbours(humanoid, table, knot) for knot in (-1, 0))
@@ -224,12 +201,7 @@ class EasyTable:
         return nearest.gloss if nearest.distance < own - _SAME else ""
 
     def _acceptable(self, sign: Sign, *, turns: float) -> Array | None:
-        """Knots that take less time, are played and taken for no other sign.
-
-        Args:
-            sign: The word.
-            turns: As of `WordTolerance`.
-        """
+        """Knots that take less time, are played and taken for no other sign; turns as of `WordTolerance`."""
         tolerance = WordTolerance(self._robot, sign, turns=turns)
         if not tolerance.arms.sides:
             return None

@@ -84,13 +84,7 @@ class LetterTolerance:
     """
 
     def __init__(self, robot: Robot, sign: Sign, recordings: Mapping[str, Array]) -> None:
-        """Describe it.
-
-        Args:
-            robot: The robot.
-            sign: The letter as captured.
-            recordings: Features of all recordings, by letter.
-        """
+        """Describe the tolerance of a letter as captured, among the features of all recordings by letter."""
         self.sign = sign
         self._robot, self._chain, self._hand = robot, ArmKinematics(robot), HandGeometry(robot)
         self._arm = self._chain.count
@@ -283,8 +277,7 @@ class LetterTolerance:
         """Values of each knot, less their mean over the letter's time. Shape (n, ...)."""
         steps = np.diff(self.sign.times)
         shares = (np.append(steps, 0.0) + np.append(0.0, steps)) / (2.0 * steps.sum())
-        middled: Array = values - np.tensordot(shares, values, axes=1)
-        return middled
+        return values - np.tensordot(shares, values, axes=1)
 
     def _tips(self, knots: Array) -> Array:
         """Ends of fingers and thumb, in ``base_link`` [m]. Shape (n, digits, 3)."""

@@ -59,12 +59,7 @@ class WordArms:
     """
 
     def __init__(self, robot: Robot, sign: Sign) -> None:
-        """Find them.
-
-        Args:
-            robot: Not shared with another thread.
-            sign: The word as captured.
-        """
+        """Find those of a word as captured; the robot is not shared with another thread."""
         self.sign = sign
         self._robot, self._chain, self._humanoid = robot, ArmKinematics(robot), robot.humanoid
         self.arm, self.hand = (len(self._humanoid.arm("right")), len(self._humanoid.hand("right")))
@@ -160,12 +155,7 @@ _BELOW_MIDDLE = 0.0125
 
 
 class WordContacts:
-    """What is to go on touching, to stay apart, and to stay at the head.
-
-    Args:
-        robot: Not shared with another thread.
-        arms: Of the word.
-    """
+    """What is to go on touching, to stay apart, and to stay at the head; the robot is as of `WordArms`."""
 
     def __init__(self, robot: Robot, arms: WordArms) -> None:
         self._robot, self._arms, self._hand = robot, arms, HandGeometry(robot)

@@ -176,12 +176,7 @@ class ScoreKnots:
     """Makes knots on one robot."""
 
     def __init__(self, robot: Robot, chain: ArmKinematics) -> None:
-        """Prepare.
-
-        Args:
-            robot: The robot.
-            chain: Its arm.
-        """
+        """Prepare for a robot and its arm."""
         self._humanoid, self._table = robot.humanoid, hand_table(robot)
         self._bounds: dict[Side, Bounds] = {
             "right": arm_bounds(robot.humanoid, "right"),
@@ -203,12 +198,7 @@ class ScoreKnots:
     ) -> tuple[tuple[str, ...], Array]:
         """Joints that take part, and their positions at every moment [rad]. Shape (moments, joints).
 
-        Args:
-            hands: Which take part.
-            moments: The postures.
-            rights: The right arm at each.
-            lefts: The left arm at each, seen as a right one; empty where it mirrors the right or takes no
-                part.
+        Left arms are seen as right ones; there are none where they mirror the right or take no part.
         """
         humanoid = self._humanoid
         joints = humanoid.arm("right") + humanoid.hand("right")

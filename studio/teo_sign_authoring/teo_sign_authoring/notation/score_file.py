@@ -149,15 +149,11 @@ _WAITING = HandScore(
 )
 
 
-def performed(compound: Compound, parts: Sequence[Score]) -> Score:
+def _performed(compound: Compound, parts: Sequence[Score]) -> Score:
     """The score of a compound: its parts one after the other.
 
     Where a part is made with the right hand alone, the left one waits low at its side until it is needed, and
     afterwards stays where it was.
-
-    Args:
-        compound: What it is called, and what it rests on.
-        parts: The scores of its signs, in order.
     """
     together = {part.hands for part in parts}
     hands = together.pop() if len(together) == 1 else "both"
@@ -248,7 +244,7 @@ def _read(path: Path, within: tuple[str, ...]) -> Score:
         except ValidationError as error:  # words of the forms that mean nothing once persons are filled in
             raise _refusal(lines, ["forms"], error.errors()[0]["msg"]) from error
         return score
-    return performed(score, [_part(path, lines, score, index, within) for index in range(len(score.signs))])
+    return _performed(score, [_part(path, lines, score, index, within) for index in range(len(score.signs))])
 
 
 def _refusal(lines: YamlLines, where: list[int | str], expected: str) -> LutError:

@@ -78,13 +78,7 @@ class PostureMotion:
 
 
 def posture_motion(robot: Robot, gloss: str, hands: Hands, moments: list[Posture]) -> PostureMotion:
-    """Find the motion.
-
-    Args:
-        robot: The robot.
-        gloss: The sign, for errors.
-        hands: Which take part.
-        moments: What is wanted, in order of time.
+    """Find the motion of the hands that take part, through moments in order of time; errors name the gloss.
 
     Raises:
         LutError: "self_collision" if the robot cannot make it without touching itself.
@@ -327,12 +321,7 @@ def _pushed(target: HandTarget, push: Array) -> HandTarget:
 
 
 def score_sign(robot: Robot, score: Score, *, language: str = DEFAULT_LANGUAGE) -> Sign:
-    """Bring a score onto a robot.
-
-    Args:
-        robot: The robot.
-        score: The sign.
-        language: Code of the sign language whose sign it is.
+    """Bring a score, a sign of the language of a code, onto a robot.
 
     Raises:
         LutError: "self_collision" if it cannot make the sign without touching itself.

@@ -137,8 +137,7 @@ def fingers_across(palm: Array, fingers: Array) -> Array:
     Words are rough: the palm is as said, the fingers as near to what is said as a hand allows.
     """
     along = fingers - (fingers @ palm) * palm
-    across: Array = along / np.linalg.norm(along)
-    return across
+    return along / np.linalg.norm(along)
 
 
 def _swung_out(first: Posture, second: Posture, swing: Array, time: float) -> Posture:

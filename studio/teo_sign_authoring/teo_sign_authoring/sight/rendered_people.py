@@ -27,9 +27,8 @@ from teo_sign_capture.recordings.pose_file import pose_file, read_pose_file
 from teo_sign_capture.retarget.handshapes import NAMES
 from teo_skeleton_retriever.detectors import make_detector
 from teo_skeleton_retriever.lifting.clip import PoseClip
-from teo_synthetic_signer.body.body_shapes import BODIES
+from teo_synthetic_signer.body.body_shapes import BODIES, random_people
 from teo_synthetic_signer.body.hand import FINGERS, THUMBS
-from teo_synthetic_signer.body.random_people import random_people
 from teo_synthetic_signer.camera.renderer import LIGHTS
 from teo_synthetic_signer.take.take import Take, TakeOptions
 
@@ -72,13 +71,7 @@ class RenderedPerson:
 
 
 def rendered_person(number: int, scores: Sequence[Score], folder: Path) -> RenderedPerson:
-    """One person; who, where and what follows from the number.
-
-    Args:
-        number: From 0.
-        scores: Of the lexicon.
-        folder: What is rendered is kept there, and taken from there.
-    """
+    """One person; who, where and what follows from the number. What is rendered is kept in the folder."""
     seen, true = folder / f"{number}.pose", folder / f"{number}.npy"
     if not true.is_file():
         points, truth = _rendered(np.random.default_rng(number), number, scores)

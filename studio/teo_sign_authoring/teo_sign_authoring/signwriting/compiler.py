@@ -273,7 +273,7 @@ def _same_circle(one: Circling | None, other: Circling | None) -> bool:
 def _steps(rights: list[Beat], lefts: list[Beat], pace: float) -> list[Step]:
     """The beats of both hands as steps; a hand that has no more beats stays."""
     if lefts:
-        rights, lefts = _spread(rights, lefts)
+        rights, lefts = _spelled_out(rights), _spelled_out(lefts)
     steps: list[Step] = []
     before: tuple[Beat | None, Beat | None] = (None, None)
     for right, left in zip_longest(rights, lefts):
@@ -314,12 +314,8 @@ def _time(old: Beat, new: Beat) -> float:
     return max(_LEAST_TIME, old.spot.distance(new.spot) / _SPEED)
 
 
-def _spread(rights: list[Beat], lefts: list[Beat]) -> tuple[list[Beat], list[Beat]]:
-    """Arcs and circles of two hands that do not mirror each other, as postures of each."""
-    return _spelled_out(rights), _spelled_out(lefts)
-
-
 def _spelled_out(beats: list[Beat]) -> list[Beat]:
+    """Beats with their arcs and circles as postures: of two hands that do not mirror each other."""
     spelled = [replace(beats[0], circle=None, arc=None), *_circle_beats(beats[0])]
     for before, beat in pairwise(beats):
         if beat.arc is not None and beat.spot.name == before.spot.name:

@@ -136,12 +136,7 @@ class ImportOutcome:
 
 
 def find_jobs(entries: Sequence[DictionaryEntry], names: GlossNames, only: Sequence[str]) -> list[ImportJob]:
-    """Every entry with its gloss.
-
-    Args:
-        entries: Of the dictionary.
-        names: Gives terms their glosses.
-        only: Glosses that are wanted, with their variants' numbers; all if empty.
+    """Every entry with its gloss; `only` are those wanted, with their variants' numbers, all if empty.
 
     Raises:
         LutError: "unknown_sign" if one that is wanted is not there.
@@ -164,12 +159,6 @@ def run_import(
 ) -> list[ImportOutcome]:
     """Import signs; one that fails stops no other.
 
-    Args:
-        jobs: The signs.
-        settings: For all of them.
-        workers: How many at a time.
-        on_done: Told of each as it ends.
-
     Returns:
         The outcomes, in the order of the file.
     """
@@ -188,7 +177,7 @@ def run_import(
                     outcome = future.result()
                 except Exception as error:  # the process died: out of memory, or killed
                     message = f"expected a process that ends well, got {type(error).__name__} {error}"
-                    outcome = _refused(futures[future], "crashed", message)
+                    outcome = _outcome(futures[future], "refused", message, "crashed")
                 outcomes.append(outcome)
                 on_done(outcome)
         except BaseException:
@@ -214,27 +203,26 @@ def _begin_work() -> None:
 def _import_entry(job: ImportJob, settings: ImportSettings) -> ImportOutcome:
     """Import one sign, in whatever process this is."""
     if job.gloss is None:
-        return _skipped(job, "unknown_term", f"expected a known word, got {job.entry.term!r}")
+        return _outcome(job, "skipped", f"expected a known word, got {job.entry.term!r}", "unknown_term")
     if not job.entry.fsw:
-        return _skipped(job, "no_sign", "expected a sign in Formal SignWriting, got an entry without one")
+        message = "expected a sign in Formal SignWriting, got an entry without one"
+        return _outcome(job, "skipped", message, "no_sign")
     try:
         kept = _kept(job.gloss, settings)
         if kept:
-            return _outcome(job, "as_before", message=kept)
+            return _outcome(job, "as_before", kept)
         compilation, sign = _made(job, job.gloss, settings)
         if settings.scores is not None:
             settings.scores.mkdir(parents=True, exist_ok=True)
             write_atomically(settings.scores / f"{job.gloss}.yaml", score_text(compilation.score).encode())
         save_sign(settings.table, sign, replace=settings.replace)
     except LutError as error:
-        return _refused(job, error.code, str(error))
+        return _outcome(job, "refused", str(error), error.code)
     except OSError as error:
-        return _refused(job, "not_written", f"expected a place to write to, got: {error}")
+        return _outcome(job, "refused", f"expected a place to write to, got: {error}", "not_written")
     except Exception as error:  # a mistake of ours in one of thousands is no reason to lose the others
-        return _refused(job, "crashed", f"{type(error).__name__}: {error}")
-    return _outcome(
-        job, "with_losses" if compilation.losses else "whole", message="; ".join(compilation.losses)
-    )
+        return _outcome(job, "refused", f"{type(error).__name__}: {error}", "crashed")
+    return _outcome(job, "with_losses" if compilation.losses else "whole", "; ".join(compilation.losses))
 
 
 def _made(job: ImportJob, gloss: str, settings: ImportSettings) -> tuple[Compilation, Sign]:
@@ -282,21 +270,14 @@ def _kept(gloss: str, settings: ImportSettings) -> str:
     return ""
 
 
-def _refused(job: ImportJob, code: str, message: str) -> ImportOutcome:
-    return replace(_outcome(job, "refused", message=message), code=code)
-
-
-def _skipped(job: ImportJob, code: str, message: str) -> ImportOutcome:
-    return replace(_outcome(job, "skipped", message=message), code=code)
-
-
-def _outcome(job: ImportJob, result: Result, *, message: str) -> ImportOutcome:
+def _outcome(job: ImportJob, result: Result, message: str, code: str = "") -> ImportOutcome:
     return ImportOutcome(
         number=job.entry.number,
         term=job.entry.term,
         fsw=job.entry.fsw,
         gloss=job.gloss or "",
         result=result,
+        code=code,
         message=message,
     )
 

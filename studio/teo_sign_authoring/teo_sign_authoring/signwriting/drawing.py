@@ -40,13 +40,7 @@ _HEAD = """<!-- SPDX-FileCopyrightText: 1974-2014 Center for Sutton Movement Wri
 
 @dataclass(frozen=True, kw_only=True)
 class WrittenEntry:
-    """An entry of the look-up table as the dictionary writes it.
-
-    Attributes:
-        gloss: Its name in the table.
-        term: That of the dictionary's entry.
-        fsw: The sign in Formal SignWriting.
-    """
+    """An entry of the look-up table, and the dictionary's term and Formal SignWriting for it."""
 
     gloss: str
     term: str
@@ -63,10 +57,6 @@ def find_written(
     terms: Mapping[str, str], entries: Iterable[DictionaryEntry]
 ) -> tuple[list[WrittenEntry], dict[str, str]]:
     """Look entries up in a dictionary.
-
-    Args:
-        terms: Of the dictionary's entries, by gloss.
-        entries: Of the dictionary.
 
     Returns:
         What was found, and why not of the other glosses: "not_found", or "several" where the dictionary

@@ -77,7 +77,7 @@ _LOSS_BY_BASE = {base: loss for loss, bases in _LOSSES.items() for base in bases
 
 # Fingers that are bent at the knuckles are drawn from the side, whichever side of the hand is shown: they
 # point to the left of the hand that is drawn upright.
-BENT_ASIDE = frozenset(
+_BENT_ASIDE = frozenset(
     {
         *(*_SHAPES["bent"], *_SHAPES["cupped"]),
         *(0x185, 0x13D, 0x13E, 0x13F, 0x1D2, 0x1D3, 0x1D4, *range(0x1EC, 0x1F5)),
@@ -230,12 +230,7 @@ def plane_of(symbol: Symbol) -> Plane:
 
 
 def orientation_of(symbol: Symbol, side: Side) -> Orientation:
-    """How a hand is held.
-
-    Args:
-        symbol: The hand.
-        side: Which hand it is, also where it is drawn as the other one.
-    """
+    """How a hand is held; `side` is which hand it is, also where it is drawn as the other one."""
     plane = plane_of(symbol)
     upright = in_space(turned(_PAGE_UP, symbol.rotation), plane)
     to_palm_side = in_space(turned(_PAGE_LEFT, symbol.rotation), plane)
@@ -245,7 +240,7 @@ def orientation_of(symbol: Symbol, side: Side) -> Orientation:
         palm = to_palm_side
     else:
         palm = towards_reader if symbol.fill in _PALM_SHOWN else -towards_reader
-        if symbol.base in BENT_ASIDE:
+        if symbol.base in _BENT_ASIDE:
             # Bent fingers are drawn aside: the hand is held between its back, as drawn, and where they point.
             fingers = (upright + to_palm_side) / np.sqrt(2.0)
     return Orientation(for_hand(palm, side), for_hand(fingers, side))
@@ -253,7 +248,7 @@ def orientation_of(symbol: Symbol, side: Side) -> Orientation:
 
 def drawn_tip(symbol: Symbol) -> Array:
     """Where on the page the fingertips are, right and down [px]. Shape (2,)."""
-    way = turned(_PAGE_LEFT if symbol.base in BENT_ASIDE else _PAGE_UP, symbol.rotation)
+    way = turned(_PAGE_LEFT if symbol.base in _BENT_ASIDE else _PAGE_UP, symbol.rotation)
     reach = float(np.abs(way) @ symbol.size) / 2.0 / max(float(np.abs(way).max()), 1e-9)
     reach = min(reach, float(symbol.size.max()) / 2.0)
     return np.asarray(symbol.middle + reach * way * np.array([1.0, -1.0]))

@@ -31,14 +31,7 @@ _ALONG = 0.5
 
 @dataclass(frozen=True, kw_only=True)
 class WrittenHand:
-    """A hand at one moment.
-
-    Attributes:
-        symbol: Its symbol.
-        side: Which hand.
-        shape: The project's handshape.
-        orientation: How it is held.
-    """
+    """A hand at one moment: its symbol, the project's handshape, and how it is held."""
 
     symbol: Symbol
     side: Side

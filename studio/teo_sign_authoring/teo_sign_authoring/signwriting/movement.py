@@ -99,13 +99,7 @@ Kind = Path | Circling | Swinging | Turning | Closing
 
 @dataclass(frozen=True, kw_only=True)
 class Movement:
-    """What a movement symbol says.
-
-    Attributes:
-        symbol: The symbol.
-        hands: Whose movement it is.
-        kind: The movement.
-    """
+    """What a movement symbol says: the movement, and whose it is."""
 
     symbol: Symbol
     hands: Hands

@@ -34,12 +34,7 @@ class BodyToBody:
     """
 
     def __init__(self, ours: Humanoid, theirs: Humanoid) -> None:
-        """Find it.
-
-        Args:
-            ours: Whose space it is from.
-            theirs: Whose space it leads to.
-        """
+        """Find the map from our space to theirs."""
         self._names = sorted(set(ours.file.places) & set(theirs.file.places))
         right, other = (
             np.array([find_place(humanoid, name).point for name in self._names])
@@ -63,16 +58,7 @@ class BodyToBody:
 
 
 def entry_postures(source: Robot, sign: Sign, robot: Robot) -> tuple[Hands, list[Posture]]:
-    """Read an entry.
-
-    Args:
-        source: The robot that the entry is for.
-        sign: The entry.
-        robot: The robot that is to make the sign.
-
-    Returns:
-        Which hands take part, and the postures at the knots.
-    """
+    """Read an entry for the robot `source`: the hands that sign, and the postures of `robot` at the knots."""
     body = BodyToBody(source.humanoid, robot.humanoid)
     tables = hand_table(source), hand_table(robot)
     right = _targets(source, sign, "right", body, *tables)

@@ -49,20 +49,9 @@ _FOLDED = np.radians(125.0)
 
 
 class LanguageSigns:
-    """Makes them.
-
-    Attributes:
-        language: The language.
-        robot: The robot; not shared with another thread.
-    """
+    """Makes them; the robot is not shared with another thread."""
 
     def __init__(self, language: Language, robot: Robot) -> None:
-        """Prepare.
-
-        Args:
-            language: The language.
-            robot: The robot.
-        """
         self.language, self.robot = language, robot
         self._rows = finger_rows(hand_table(robot).hand)
 
@@ -202,16 +191,7 @@ def transfer_table(
     jobs: int,
     done: Callable[[Transferred], None],
 ) -> list[Transferred]:
-    """Make the signs of a table.
-
-    Args:
-        language: Code of the sign language.
-        robot: Name of the robot.
-        glosses: Which signs.
-        out: Directory of the table; made if it is not there.
-        replace: Whether entries that are there are made anew.
-        jobs: How many processes.
-        done: Called with each sign as it is done.
+    """Make the signs of a table in the directory `out`; those that are there are made anew if `replace`.
 
     Returns:
         What became of each, in the order of `glosses`.

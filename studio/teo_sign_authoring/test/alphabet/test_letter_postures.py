@@ -186,16 +186,6 @@ def test_a_damaged_recording_is_named_and_the_other_letters_are_made(
 # --- hand of the signer
 
 
-def test_a_right_hand_held_up_with_its_palm_to_the_viewer_has_these_axes() -> None:
-    # Forward, left, up: seen from the front the thumb side of a right hand is to the signer's left.
-    hand = np.zeros((1, 21, 3))
-    hand[0, [5, 9, 13, 17]] = [[0, 20, 60], [0, 7, 62], [0, -7, 60], [0, -20, 55]]
-    axes = palm_axes(hand)[0]
-    assert axes[:, 0] == pytest.approx([0, 0, 1], abs=0.05)
-    assert axes[:, 1] == pytest.approx([0, -1, 0], abs=0.05)
-    assert axes[:, 2] == pytest.approx([1, 0, 0], abs=1e-9)
-
-
 @pytest.mark.parametrize("turn", [(0.2, -1.2, 0.3), (0.0, -1.5, 0.6), (0.3, -0.9, -0.8)])
 def test_a_hand_seen_without_error_is_recovered(turn: tuple[float, float, float]) -> None:
     rotation = Rotation.from_euler("xyz", turn).as_matrix()
@@ -286,7 +276,7 @@ def placed(robot: Robot, arm: Array) -> Array:
     return robot.placement(robot.configuration(pose), "right_palm")
 
 
-@settings(max_examples=25)
+@settings(max_examples=10)
 @given(share=st.lists(st.floats(0.1, 0.9), min_size=6, max_size=6))
 def test_an_arm_is_within_its_bounds_and_as_far_off_as_it_says(share: list[float]) -> None:
     robot = Robot.load()

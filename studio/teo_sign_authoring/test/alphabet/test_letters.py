@@ -16,7 +16,6 @@ from msgspec.structs import replace as changed
 from teo_common.arrays import Array
 from teo_description.robot import Robot
 from teo_names import RIGHT_ARM, RIGHT_HAND
-from teo_sign_authoring.alphabet.demonstration import SPELLING_POSES
 from teo_sign_authoring.alphabet.letter_clips import find_stroke, load_letter_clips, palm_centres
 from teo_sign_authoring.alphabet.letters import capture_letter, read_alphabet
 from teo_sign_authoring.alphabet.spelling_arm import shift_off_face
@@ -44,6 +43,12 @@ FLEXION = {
     "ase": {"e": (0.0, 40.0), "h": (15.0, 65.0), "f": (40.0, 85.1)},
 }  # [deg]
 
+# Right arm [deg], from the shoulder on, while TEO spells in its public demonstration.
+SPELLING_POSES = {
+    "T": (-73.2, 10.7, 10.6, -74.6, 34.7, 1.9),
+    "E": (-75.4, 12.4, 9.6, -83.5, 86.2, 2.3),
+    "O": (-73.4, 10.5, 13.1, -83.5, 25.7, -0.9),
+}
 MOVING = {"G", "H", "J", "LL", "Ñ", "RR", "V", "W", "X", "Y", "Z"}
 HANGING = {"M", "N", "Ñ"}
 

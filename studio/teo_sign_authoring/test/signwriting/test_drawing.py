@@ -14,7 +14,6 @@ import typer
 from typer.testing import CliRunner, Result
 
 from teo_sign_authoring.cli.signwriting import draw_signwriting
-from teo_sign_authoring.signwriting.drawing import named_term
 from teo_signs.look_up_table import default_lut_directory
 
 # Two hands each.
@@ -73,12 +72,6 @@ def test_entries_of_both_tables_that_name_the_dictionary_are_drawn_the_others_to
     }
     drawn = ElementTree.parse(home / "signwriting" / "drawings.svg").getroot()
     assert {each.get("id"): len(each.findall(f"{SVG}g")) for each in drawn} == {"1000": 2, "BANDEJA": 2}
-
-
-def test_a_sign_that_is_only_derived_from_an_entry_is_not_drawn_as_it() -> None:
-    assert named_term('SignPuddle (SignBank), puddle 55, entry "amor 2"') == "amor 2"
-    assert named_term('the turn of SignPuddle LSE dictionary (puddle 55), entry "primero 2"') is None
-    assert named_term('SignPuddle (SignBank), puddle 55, has only the verb, "cuidar 3"') is None
 
 
 @pytest.mark.parametrize(

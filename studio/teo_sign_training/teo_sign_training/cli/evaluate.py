@@ -33,14 +33,8 @@ _CHUNK = 512
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
-    """A pair and what came out.
-
-    Attributes:
-        pair: Spanish and the expected glosses.
-        glosses: That came out.
-        log_probability: That the model gives them [nat].
-    """
+class _Outcome:
+    """A pair and the glosses that came out, with the log probability that the model gives them [nat]."""
 
     pair: Pair
     glosses: tuple[str, ...]
@@ -48,28 +42,26 @@ class Outcome:
 
     @property
     def right(self) -> bool:
-        """Whether the glosses are the expected ones."""
         return self.glosses == self.pair.glosses
 
 
-def outcomes(
+def _outcomes(
     model: SentenceModel, pairs: Sequence[Pair], read: Reader, beam: int, console: Console
-) -> list[Outcome]:
-    """Translate pairs, with a progress bar."""
-    result: list[Outcome] = []
+) -> list[_Outcome]:
+    result: list[_Outcome] = []
     starts = range(0, len(pairs), _CHUNK)
     hidden = not console.is_terminal
     for start in track(starts, "translating", console=console, transient=True, disable=hidden):
         some = pairs[start : start + _CHUNK]
         translated = model.translate_all([read(pair.text) for pair in some], beam=beam)
         for pair, (best, *_) in zip(some, translated, strict=True):
-            result.append(Outcome(pair, tuple(gloss.gloss for gloss in best.glosses), best.log_probability))
+            result.append(_Outcome(pair, tuple(gloss.gloss for gloss in best.glosses), best.log_probability))
     return result
 
 
-def _scores_by(results: Sequence[Outcome], key: str) -> dict[str, Score]:
+def _scores_by(results: Sequence[_Outcome], key: str) -> dict[str, Score]:
     """Scores of all outcomes with the same `split`, or of the same family of rules (`rule`)."""
-    groups: defaultdict[str, list[Outcome]] = defaultdict(list)
+    groups: defaultdict[str, list[_Outcome]] = defaultdict(list)
     for each in results:
         groups[each.pair.split if key == "split" else each.pair.rule.partition(".")[0]].append(each)
     return {
@@ -105,7 +97,7 @@ def run(
     if unknown:
         raise TranslationError("invalid_data", f"expected splits of {', '.join(splits)}, got {unknown}")
     chosen = [pair for name in wanted for pair in sample(splits[name], pairs, seed)]
-    results = outcomes(loaded, chosen, read, beam, console)
+    results = _outcomes(loaded, chosen, read, beam, console)
     by_rule = _scores_by(results, "rule")
     console.print(_table(f"{model}, beam {beam}", "split", _scores_by(results, "split")))
     console.print(

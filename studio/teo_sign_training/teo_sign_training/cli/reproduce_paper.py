@@ -31,15 +31,8 @@ _HELD_OUT = 0.2
 
 
 @dataclass(frozen=True, slots=True)
-class Run:
-    """One training and what it predicts.
-
-    Attributes:
-        config: How it was trained.
-        training: Model and losses.
-        predictions: Glosses as the paper writes them, for each pair.
-        seconds: Time that training took [s].
-    """
+class _Run:
+    """One training, the glosses that it predicts for each pair, and the time that it took [s]."""
 
     config: LstmTrainingConfig
     training: Training
@@ -47,24 +40,23 @@ class Run:
     seconds: float
 
 
-def split(pairs: list[PublishedPair]) -> tuple[list[PublishedPair], list[PublishedPair]]:
+def _split(pairs: list[PublishedPair]) -> tuple[list[PublishedPair], list[PublishedPair]]:
     """The pairs to train on, and the last 20 % (rounded up) held out: 31 and 8 of 39."""
     count = len(pairs) - math.ceil(_HELD_OUT * len(pairs))
     return pairs[:count], pairs[count:]
 
 
-def _reproduce(config: LstmTrainingConfig, progress: Progress) -> Run:
-    """Train with one learning rate on the published pairs."""
+def _reproduce(config: LstmTrainingConfig, progress: Progress) -> _Run:
     pairs = paper_pairs()
     examples: list[Example] = [(published_tokens(pair.sentence), pair.glosses) for pair in pairs]
-    count = len(split(pairs)[0])
+    count = len(_split(pairs)[0])
     task = progress.add_task(f"learning rate {config.learning_rate}", total=config.epochs)
     started = time.monotonic()
     training = train(
         examples[:count], examples[count:], config, lambda epoch: progress.update(task, completed=epoch)
     )
     seconds = time.monotonic() - started
-    return Run(
+    return _Run(
         config, training, tuple(training.model.predict(source).tokens for source, _ in examples), seconds
     )
 
@@ -105,7 +97,7 @@ def run(
     console.print(f"written to {out}", highlight=False)
 
 
-def _differences(runs: list[Run]) -> list[str]:
+def _differences(runs: list[_Run]) -> list[str]:
     """What came out, what differs from the paper, and why, in sentences."""
     pairs = paper_pairs()
     shown = paper_predictions()
@@ -128,10 +120,10 @@ def _differences(runs: list[Run]) -> list[str]:
     ]
 
 
-def _outcome(result: Run) -> str:
+def _outcome(result: _Run) -> str:
     """Figures of one run in a sentence or two."""
     pairs, shown = paper_pairs(), paper_predictions()
-    known = len(split(pairs)[0])
+    known = len(_split(pairs)[0])
     right = [p == pair.glosses for p, pair in zip(result.predictions, pairs, strict=True)]
     same = sum(ours == theirs.glosses for ours, theirs in zip(result.predictions, shown, strict=False))
     losses, validation = result.training.losses, result.training.validation_losses
@@ -146,7 +138,7 @@ def _outcome(result: Run) -> str:
     )
 
 
-def _deviations(result: Run) -> list[str]:
+def _deviations(result: _Run) -> list[str]:
     """The sentences whose predictions are not the paper's."""
     differing = [
         f"'{theirs.sentence}' (paper: {' '.join(theirs.glosses)}; ours: {' '.join(ours) or 'nothing'})"
@@ -159,7 +151,7 @@ def _deviations(result: Run) -> list[str]:
 
 def _unseen_words() -> str:
     """Why the held-out sentences cannot come out right."""
-    learned, held_out = split(paper_pairs())
+    learned, held_out = _split(paper_pairs())
     words = {word for pair in learned for word in published_tokens(pair.sentence)}
     glosses = {gloss for pair in learned for gloss in pair.glosses}
     unseen = sum(not set(published_tokens(pair.sentence)) <= words for pair in held_out)
@@ -171,7 +163,7 @@ def _unseen_words() -> str:
     )
 
 
-def _rows(runs: list[Run]) -> list[list[str]]:
+def _rows(runs: list[_Run]) -> list[list[str]]:
     head = [
         "Spanish",
         "taught",
@@ -197,9 +189,9 @@ def _markdown(rows: list[list[str]], remarks: list[str]) -> str:
     return "\n".join([*lines, "", "## What differs, and why", "", *(f"- {remark}" for remark in remarks), ""])
 
 
-def _loss_png(result: Run) -> bytes:
+def _loss_png(result: _Run) -> bytes:
     """Both losses over the epochs, as a picture."""
-    learned, held_out = split(paper_pairs())
+    learned, held_out = _split(paper_pairs())
     training = result.training
 
     def draw(axes: Axes) -> None:

@@ -263,13 +263,7 @@ class GeneratedSentence(NamedTuple):
 
 @dataclass
 class Derivation:
-    """Derives sentences from rules; a `Chooser` decides at each place.
-
-    Attributes:
-        grammar: Rules.
-        words: Word lists.
-        chooser: Chooses.
-    """
+    """Derives sentences from rules; a `Chooser` decides at each place."""
 
     grammar: Grammar
     words: WordLists
@@ -281,10 +275,6 @@ class Derivation:
 
     def sentence(self, rule: Rule, spread: Mapping[str, str]) -> GeneratedSentence:
         """Make a sentence of a rule.
-
-        Args:
-            rule: Of a family.
-            spread: The alternative of each spread slot.
 
         Raises:
             NoFillerError: Try again.

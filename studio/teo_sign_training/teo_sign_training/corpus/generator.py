@@ -37,12 +37,7 @@ _LONGEST = 24
 
 @dataclass
 class Generator:
-    """A grammar with its words, ready to make pairs.
-
-    Attributes:
-        grammar: Rules.
-        words: Word lists, with the held-out words named.
-    """
+    """A grammar with its words, the held-out ones named, ready to make pairs."""
 
     grammar: Grammar
     words: WordLists

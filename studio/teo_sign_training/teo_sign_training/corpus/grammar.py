@@ -160,13 +160,7 @@ class Shape:
 
 @dataclass(frozen=True, slots=True)
 class Family:
-    """Sentences of one construction.
-
-    Attributes:
-        name: Unique.
-        weight: How often, among the families.
-        rules: Its sentences.
-    """
+    """Sentences of one construction; its weight says how often, among the families."""
 
     name: str
     weight: float
@@ -225,10 +219,10 @@ class Grammar:
 
 def fits(rule: Rule, features: Mapping[str, str]) -> bool:
     """Whether the features handed down are what the rule wants."""
-    return all(allows(allowed, features.get(key, "-").split(",")) for key, allowed in rule.when)
+    return all(_allows(allowed, features.get(key, "-").split(",")) for key, allowed in rule.when)
 
 
-def allows(allowed: Sequence[str], given: Sequence[str]) -> bool:
+def _allows(allowed: Sequence[str], given: Sequence[str]) -> bool:
     """Whether one of the values is allowed; where values are forbidden (`!neg`), whether none is given."""
     forbidden = [value[1:] for value in allowed if value.startswith("!")]
     if forbidden:
@@ -296,7 +290,7 @@ def _possible(rule: Rule, arguments: tuple[tuple[str, str], ...]) -> bool:
     given = dict(arguments)
     for key, allowed in rule.when:
         value = given.get(key, "-")
-        if not value.startswith("$") and not allows(allowed, [value]):
+        if not value.startswith("$") and not _allows(allowed, [value]):
             return False
     return True
 

@@ -46,12 +46,7 @@ _GLOSS_SLOT = re.compile(r"\{(?P<slot>\w+)(?:\+(?P<also>\w+))?\}")
 _GLOSS = re.compile(r"(?P<gloss>[A-ZÁÉÍÓÚÜÑ0-9_]+)(?:=(?P<sources>\S+))?")
 
 
-def parse_text(text: str) -> tuple[TextItem, ...]:
-    """Parse a text side.
-
-    Raises:
-        TranslationError: "invalid_grammar" naming the item.
-    """
+def _parse_text(text: str) -> tuple[TextItem, ...]:
     items: list[TextItem] = []
     for written in text.split():
         if match := _SLOT.fullmatch(written):
@@ -68,12 +63,7 @@ def parse_text(text: str) -> tuple[TextItem, ...]:
     return tuple(items)
 
 
-def parse_glosses(text: str) -> tuple[GlossItem, ...]:
-    """Parse a side of signs.
-
-    Raises:
-        TranslationError: "invalid_grammar" naming the item.
-    """
+def _parse_glosses(text: str) -> tuple[GlossItem, ...]:
     items: list[GlossItem] = []
     for written in text.split():
         if match := _GLOSS_SLOT.fullmatch(written):
@@ -200,8 +190,8 @@ def _family(where: str, name: str, body: Any, paradigms: Mapping[str, Any]) -> F
 def _rule(where: str, name: str, body: Any, paradigms: Mapping[str, Any]) -> Rule:
     _check_keys(where, body, _RULE_KEYS)
     try:
-        text = parse_text(_text(where, body["text"]))
-        glosses = parse_glosses(_text(where, body["signs"]))
+        text = _parse_text(_text(where, body["text"]))
+        glosses = _parse_glosses(_text(where, body["signs"]))
     except TranslationError as error:
         raise TranslationError(error.code, f"{where}: {error}") from error
     slots = tuple(_slot(where, key, text) for key, text in _mapping(where, "pick", body.get("pick", {})))

@@ -15,7 +15,7 @@ from teo_common.text_folding import folded
 from teo_sign_translator.data_files import invalid_line
 from teo_sign_translator.errors import TranslationError
 
-COLUMNS = ("text", "glosses", "alignment", "rule", "split")
+_COLUMNS = ("text", "glosses", "alignment", "rule", "split")
 
 #: `test_words`: known templates with words that train never has; `test_templates`: known words in templates
 #: that train never has; `test_both`: neither was seen; `test_constructions`: known words in constructions
@@ -45,7 +45,7 @@ class Pair:
 
 def write_pairs(path: Path, pairs: Iterable[Pair]) -> None:
     """Write a corpus file; whoever reads it meanwhile finds the old one or the whole new one."""
-    lines = ["\t".join(COLUMNS)]
+    lines = ["\t".join(_COLUMNS)]
     lines += (
         "\t".join(
             (
@@ -73,8 +73,8 @@ def read_pairs(path: Path) -> Iterator[Pair]:
             for number, line in enumerate(file, start=1):
                 fields = line.rstrip("\n").split("\t")
                 if number == 1:
-                    if tuple(fields) != COLUMNS:
-                        raise invalid_line(path, number, f"the header {COLUMNS}", f"'{line.strip()}'")
+                    if tuple(fields) != _COLUMNS:
+                        raise invalid_line(path, number, f"the header {_COLUMNS}", f"'{line.strip()}'")
                     continue
                 yield _pair(path, number, fields)
     except (OSError, UnicodeDecodeError) as error:
@@ -82,8 +82,8 @@ def read_pairs(path: Path) -> Iterator[Pair]:
 
 
 def _pair(path: Path, number: int, fields: list[str]) -> Pair:
-    if len(fields) != len(COLUMNS):
-        raise invalid_line(path, number, f"{len(COLUMNS)} columns", f"{len(fields)}")
+    if len(fields) != len(_COLUMNS):
+        raise invalid_line(path, number, f"{len(_COLUMNS)} columns", f"{len(fields)}")
     text, glosses, alignment, rule, split = fields
     if split not in SPLITS:
         raise invalid_line(path, number, f"one of {SPLITS}", f"'{split.strip()}'")
@@ -99,12 +99,8 @@ def _pair(path: Path, number: int, fields: list[str]) -> Pair:
     return pair
 
 
-def corpus_files(corpus: Path) -> tuple[Path, ...]:
-    """The files of a corpus: itself, or the `.tsv` files of the folder.
-
-    Raises:
-        TranslationError: "invalid_data" if there is none.
-    """
+def _corpus_files(corpus: Path) -> tuple[Path, ...]:
+    """The files of a corpus: itself, or the `.tsv` files of the folder."""
     files = (corpus,) if corpus.is_file() else tuple(sorted(corpus.glob("*.tsv")))
     if not files:
         raise TranslationError(
@@ -122,7 +118,7 @@ def read_splits(corpus: Path) -> dict[str, list[Pair]]:
         TranslationError: "invalid_data", with file and line.
     """
     splits: dict[str, list[Pair]] = {split: [] for split in SPLITS}
-    for path in corpus_files(corpus):
+    for path in _corpus_files(corpus):
         for pair in read_pairs(path):
             splits[pair.split].append(pair)
     return splits
@@ -131,7 +127,7 @@ def read_splits(corpus: Path) -> dict[str, list[Pair]]:
 def corpus_hash(corpus: Path) -> str:
     """SHA-256 over the files of a corpus in the order of their names, hexadecimal."""
     digest = hashlib.sha256()
-    for path in corpus_files(corpus):
+    for path in _corpus_files(corpus):
         digest.update(path.read_bytes())
     return digest.hexdigest()
 

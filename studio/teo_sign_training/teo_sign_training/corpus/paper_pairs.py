@@ -70,11 +70,10 @@ def training_pairs(folder: Path | None = None) -> list[AlignedPair]:
         folder: The language's text folder, by default that of the default language; one without either
             file has no such sentences.
     """
-    return [pair for path in training_files(folder) for pair in read_aligned_pairs(path)]
+    return [pair for path in _training_files(folder) for pair in read_aligned_pairs(path)]
 
 
-def training_files(folder: Path | None = None) -> list[Path]:
-    """Files of the sentences whose translation is given, as far as a language has them."""
+def _training_files(folder: Path | None = None) -> list[Path]:
     paths = (
         (folder or data_file("")) / "paper_alignment.tsv",
         (folder or data_file("")) / "project_pairs.tsv",
@@ -129,11 +128,6 @@ class PublishedPair:
 
 
 def _published_pairs(path: Path) -> list[PublishedPair]:
-    """Read a file of sentences and glosses.
-
-    Raises:
-        TranslationError: "invalid_data", with file and line.
-    """
     return [
         PublishedPair(sentence, tuple(gloss.strip() for gloss in glosses.split("/")))
         for _, (sentence, glosses) in read_rows(path, columns=2)
@@ -153,7 +147,7 @@ def paper_predictions() -> list[PublishedPair]:
 def training_data_hash() -> str:
     """SHA-256 of the files behind `training_pairs`, hexadecimal."""
     digest = hashlib.sha256()
-    for path in training_files():
+    for path in _training_files():
         digest.update(path.read_bytes())
     return digest.hexdigest()
 
@@ -164,15 +158,11 @@ def own_pairs(morphology: Morphology) -> Iterator[Pair]:
     for pair in training_pairs(morphology.folder):
         fillings = list(zip(_NAMES, _NUMBERS, strict=True)) if {*SLOTS} & {*pair.glosses} else [("", "")]
         for name, number in fillings:
-            yield filled(pair, name, number, read)
+            yield _filled(pair, name, number, read)
 
 
-def filled(pair: AlignedPair, name: str, number: str, read: Reader) -> Pair:
-    """A pair whose slots hold a name and a number; `read` makes words of its sentence.
-
-    Raises:
-        TranslationError: "invalid_data" if a gloss stands for a word that is not read from the sentence.
-    """
+def _filled(pair: AlignedPair, name: str, number: str, read: Reader) -> Pair:
+    """A pair whose slots hold a name and a number; `read` makes words of its sentence."""
     sentence = pair.sentence.replace(NAME, name).replace(NUMBER, number)
     words = read(sentence)
     glosses: list[str] = []
@@ -228,7 +218,7 @@ def memorised_pairs(read: Reader, folder: Path | None = None) -> tuple[Pair, ...
     """
     return tuple(
         dict.fromkeys(
-            filled(replace(pair, sentence=pair.sentence + stop), name, number, read)
+            _filled(replace(pair, sentence=pair.sentence + stop), name, number, read)
             for pair in training_pairs(folder)
             for name, number in zip(_FEW_NAMES, _FEW_NUMBERS, strict=True)
             for stop in ("", "" if pair.sentence[-1] in "?!…" else ".")
@@ -248,17 +238,17 @@ def written_pairs(read: Reader, folder: Path | None = None) -> tuple[Pair, ...]:
     """
     path = (folder or data_file("")) / "written_pairs.tsv"
     aligned = read_aligned_pairs(path) if path.is_file() else []
-    return tuple(replace(filled(pair, "", "", read), rule="written") for pair in aligned)
+    return tuple(replace(_filled(pair, "", "", read), rule="written") for pair in aligned)
 
 
-def ways_of_typing(sentence: str) -> tuple[str, ...]:
+def _ways_of_typing(sentence: str) -> tuple[str, ...]:
     """As given, without accents, without marks, and with nothing but lower case letters."""
     bare = " ".join(_NOT_LETTERS.sub(" ", sentence).split())
     return tuple(dict.fromkeys([sentence, without_accents(sentence), bare, without_accents(bare).lower()]))
 
 
 def not_memorised(model: SentenceModel, read: Reader) -> tuple[str, ...]:
-    """The paper's sentences, in all `ways_of_typing`, that a model does not translate as published.
+    """The paper's sentences, in all `_ways_of_typing`, that a model does not translate as published.
 
     Returns:
         `sentence -> glosses that came out`, none if all are right.
@@ -266,7 +256,7 @@ def not_memorised(model: SentenceModel, read: Reader) -> tuple[str, ...]:
     wrong: list[str] = []
     for pair in paper_pairs():
         expected = tuple("7" if gloss == "X" else gloss_name(gloss) for gloss in pair.glosses)
-        for sentence in ways_of_typing(pair.sentence.replace(" X ", " 7 ")):
+        for sentence in _ways_of_typing(pair.sentence.replace(" X ", " 7 ")):
             got = tuple(gloss.gloss for gloss in model.translate(read(sentence))[0].glosses)
             if got != expected:
                 wrong.append(f"{sentence} -> {' '.join(got)}")

@@ -20,7 +20,7 @@ from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.text.rules import TextRules
 
 #: One word in this many is held out.
-HELD_OUT_ONE_IN = 20
+_HELD_OUT_ONE_IN = 20
 #: A word is this much less likely in a class that it is listed in but that says it less well than another.
 _SECONDARY = 0.05
 #: The r-th word of a class has weight 1 / (r + this): the twentieth is half as likely as the first.
@@ -74,7 +74,7 @@ class Pool:
 
 def is_held_out(lemma: str) -> bool:
     """Whether a word is held out of training: by its hash, so the same words in every run."""
-    return int.from_bytes(hashlib.sha256(lemma.encode()).digest()[:4], "big") % HELD_OUT_ONE_IN == 0
+    return int.from_bytes(hashlib.sha256(lemma.encode()).digest()[:4], "big") % _HELD_OUT_ONE_IN == 0
 
 
 @dataclass

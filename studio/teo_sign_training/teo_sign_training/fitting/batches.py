@@ -79,13 +79,7 @@ class WordNumbers:
 
     @classmethod
     def of(cls, table: WordTable, vocabulary: Vocabulary, examples: Examples) -> WordNumbers:
-        """Look the words up.
-
-        Args:
-            table: The words.
-            vocabulary: The lists.
-            examples: The training pairs.
-        """
+        """Look the words up."""
         features = [vocabulary.features(word) for word in table.words if word is not None]
         root, blank = vocabulary.forms.index("<root>"), vocabulary.forms.index("<blank>")
         none = [0] * READINGS

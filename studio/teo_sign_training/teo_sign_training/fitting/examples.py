@@ -53,9 +53,9 @@ class Examples:
 
     def take(self, pairs: Ints) -> Examples:
         """The chosen pairs, in the order given; a pair may be taken several times."""
-        words, word_start = spans(self.word_start, pairs)
-        glosses, gloss_start = spans(self.gloss_start, pairs)
-        links, link_start = spans(self.link_start, pairs)
+        words, word_start = _spans(self.word_start, pairs)
+        glosses, gloss_start = _spans(self.gloss_start, pairs)
+        links, link_start = _spans(self.link_start, pairs)
         counts = np.diff(link_start)
         return Examples(
             self.words[words],
@@ -68,13 +68,8 @@ class Examples:
         )
 
 
-def spans(start: Ints, chosen: Ints) -> tuple[Ints, Ints]:
-    """Places of all elements of the chosen spans one after the other, and where each span now starts.
-
-    Args:
-        start: Span i is `start[i]:start[i + 1]`.
-        chosen: Spans, in order.
-    """
+def _spans(start: Ints, chosen: Ints) -> tuple[Ints, Ints]:
+    """Places of all elements of chosen spans (span i is `start[i]:start[i + 1]`), and their new starts."""
     counts = start[chosen + 1] - start[chosen]
     new_start = np.concatenate([[0], np.cumsum(counts)])
     offset = np.repeat(start[chosen] - new_start[:-1], counts)
@@ -106,11 +101,7 @@ ROOT_ROW, BLANK_ROW = 0, 1
 
 @dataclass
 class ExampleReader:
-    """Collects pairs and the words that occur in them.
-
-    Attributes:
-        read: Reads sentences.
-    """
+    """Collects pairs and the words that occur in them."""
 
     read: Reader
     _rows: dict[SourceWord, int] = field(default_factory=dict)
@@ -203,10 +194,10 @@ class ExampleReader:
 
 #: Of the pairs that are not shown as written, how many lose what. Not measured on people: half of each, so
 #: that all eight ways of typing a sentence are about as frequent.
-NO_ACCENTS = 0.6
-NO_CAPITALS = 0.6
-NO_FINAL_MARK = 0.3
-NO_MARKS = 0.3
+_NO_ACCENTS = 0.6
+_NO_CAPITALS = 0.6
+_NO_FINAL_MARK = 0.3
+_NO_MARKS = 0.3
 
 
 @dataclass(frozen=True, slots=True)
@@ -227,12 +218,12 @@ class Typing:
     def draw(cls, count: int, clean: float, random: np.random.Generator) -> Typing:
         """A way of typing for each pair; `clean` of them as written."""
         noisy = random.random(count) >= clean
-        variant = (random.random(count) < NO_ACCENTS) + 2 * (random.random(count) < NO_CAPITALS)
+        variant = (random.random(count) < _NO_ACCENTS) + 2 * (random.random(count) < _NO_CAPITALS)
         marks = random.random(count)
         return cls(
             np.where(noisy, variant, 0).astype(np.int64),
-            noisy & (marks < NO_FINAL_MARK),
-            noisy & (marks >= NO_FINAL_MARK) & (marks < NO_FINAL_MARK + NO_MARKS),
+            noisy & (marks < _NO_FINAL_MARK),
+            noisy & (marks >= _NO_FINAL_MARK) & (marks < _NO_FINAL_MARK + _NO_MARKS),
         )
 
 
@@ -271,20 +262,15 @@ def copies(examples: Examples, table: WordTable) -> NDArray[np.bool_]:
 def unsayable(
     examples: Examples, table: WordTable, closed: NDArray[np.bool_], copy: bool
 ) -> NDArray[np.bool_]:
-    """Which pairs hold a gloss that is neither in the closed list nor a copy. Shape (n,).
+    """Which pairs hold a gloss that is neither in the closed list nor, if the model can copy, a copy.
 
-    Args:
-        examples: The pairs.
-        table: Their words.
-        closed: For each gloss of the table whether it is in the closed list.
-        copy: Whether the model can copy.
+    Shape (n,); `closed` says of each gloss of the table whether it is in the list.
     """
     sayable = closed[examples.glosses]
     if copy:
         sayable[examples.link_gloss[copies(examples, table).any(axis=1)]] = True
     bad = np.concatenate([[0], np.cumsum(~sayable)])
-    result: NDArray[np.bool_] = bad[examples.gloss_start[1:]] > bad[examples.gloss_start[:-1]]
-    return result
+    return bad[examples.gloss_start[1:]] > bad[examples.gloss_start[:-1]]
 
 
 def typed_sayably(

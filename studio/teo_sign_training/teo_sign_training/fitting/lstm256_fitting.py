@@ -154,11 +154,6 @@ class EncoderDecoder(nn.Module):
 
         The paper states no initial weights; these (Glorot uniform, orthogonal, zero, forget gate 1) were the
         defaults of the libraries of its time, and learn these few sentences in fewer epochs than PyTorch's.
-
-        Args:
-            inputs: Size of the input vocabulary.
-            outputs: Size of the output vocabulary.
-            hidden: Units of each LSTM layer.
         """
         super().__init__()
         self.inputs = inputs
@@ -267,13 +262,6 @@ def train_published(
     name: str, directory: Path, config: LstmTrainingConfig, command: str, console: Console
 ) -> bool:
     """Train and write the model with a card that says how.
-
-    Args:
-        name: Of the model's files.
-        directory: Where they go.
-        config: How it is trained.
-        command: Goes into the card.
-        console: Shows progress and result.
 
     Returns:
         Whether all examples are known afterwards.

@@ -34,7 +34,7 @@ def on_device(batch: Batch[NDArray[Any]], device: torch.device) -> Batch[Tensor]
 
 
 @dataclass(frozen=True, slots=True)
-class Said:
+class _Said:
     """What a network would say at each step.
 
     Attributes:
@@ -104,7 +104,7 @@ class Network(nn.Module):
             self.said_memory = nn.Linear(memory, size)
             self.said_reading = nn.Linear(size, size, bias=False)
 
-    def forward(self, batch: Batch[Tensor]) -> Said:
+    def forward(self, batch: Batch[Tensor]) -> _Said:
         """Log-probabilities of every gloss, given the right ones before it (teacher forcing)."""
         tags = self.tag(batch.tags) + (self.tag_parts @ self.part)[batch.tags]
         readings = self.lemma(batch.lemmas) + tags
@@ -113,7 +113,7 @@ class Network(nn.Module):
         memory, _ = self.encoder(words)
         none = memory.new_zeros(0)
         if self.config.layout == "equal_length":
-            return Said(torch.log_softmax(self.output(self.dropout(memory)), dim=-1), none)
+            return _Said(torch.log_softmax(self.output(self.dropout(memory)), dim=-1), none)
 
         said = self.said(batch.said.clamp(min=0))
         if self.config.copy:
@@ -123,7 +123,7 @@ class Network(nn.Module):
             said = torch.where(batch.said[..., None] < 0, candidates.gather(1, place), said)
         hidden, _ = self.decoder(self.dropout(said), self._first_state(memory))
         if not self.config.attention:
-            return Said(torch.log_softmax(self.output(self.dropout(hidden)), dim=-1), none)
+            return _Said(torch.log_softmax(self.output(self.dropout(hidden)), dim=-1), none)
 
         scores = hidden @ self.key(memory).transpose(1, 2) * self.config.hidden**-0.5
         attention = torch.softmax(scores, dim=-1)
@@ -135,7 +135,7 @@ class Network(nn.Module):
             pointer = thought @ keys.flatten(1, 2).transpose(1, 2)
             pointer = pointer.masked_fill((batch.lemmas.flatten(1) == 0)[:, None], _NEVER)
             logits = torch.cat([logits, pointer], dim=-1)
-        return Said(torch.log_softmax(logits, dim=-1), attention)
+        return _Said(torch.log_softmax(logits, dim=-1), attention)
 
     def losses(self, batch: Batch[Tensor]) -> tuple[Tensor, Tensor]:
         """Both losses of a batch, summed over glosses [nat]: of the glosses, and of where attention lies.

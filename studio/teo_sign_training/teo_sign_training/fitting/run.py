@@ -27,7 +27,7 @@ from teo_sign_translator.pointer.decoding import SentenceModel, load_sentence_mo
 from teo_sign_translator.pointer.ensemble import member_weights
 
 #: Pairs of a held-out split that are translated to score a model: 2,000 give a standard error of 1 % at most.
-SCORED = 2000
+_SCORED = 2000
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,14 +73,7 @@ class TrainedModel:
 def load_training_data(
     corpus: Path, read: Reader, pairs: int | None, seed: int, language: Language
 ) -> TrainingData:
-    """Read a corpus.
-
-    Args:
-        corpus: Folder or file.
-        read: How sentences become words.
-        pairs: Most training pairs, chosen at random; all by default.
-        seed: Of that choice.
-        language: Of the corpus.
+    """Read a corpus, a folder or a file; at most so many of its training pairs, chosen at random.
 
     Raises:
         TranslationError: "invalid_data".
@@ -106,21 +99,12 @@ def train_model(
 ) -> TrainedModel:
     """Train, write the files, load them again and score what was loaded.
 
-    Args:
-        name: Of the model's files.
-        network: What is trained.
-        config: How.
-        data: On what.
-        read: How sentences become words.
-        out: Folder of the files.
-        command: Goes into the card.
-        console: Shows the progress.
-        device: Where; an accelerator if there is one by default.
+    The command goes into the card. The device is an accelerator if there is one by default.
 
     Raises:
         TranslationError: "invalid_config", "invalid_data".
     """
-    dev = sample(data.held_out["dev"], SCORED, config.seed)
+    dev = sample(data.held_out["dev"], _SCORED, config.seed)
     columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn(), TimeRemainingColumn())
     with Progress(*columns, console=console) as bar:
         task = bar.add_task(name, total=config.epochs * network.members)
@@ -191,7 +175,7 @@ def train_model(
     save()
     model = load_sentence_model(name, out)
     scores = {
-        split: score_model(model, sample(pairs, SCORED, config.seed), read)
+        split: _score_model(model, sample(pairs, _SCORED, config.seed), read)
         for split, pairs in data.held_out.items()
         if pairs
     }
@@ -204,8 +188,7 @@ def train_model(
     return TrainedModel(model, fitted, scores, unknown)
 
 
-def score_model(model: SentenceModel, pairs: Sequence[Pair], read: Reader) -> Score:
-    """Translate pairs, the likeliest gloss each time, and compare."""
+def _score_model(model: SentenceModel, pairs: Sequence[Pair], read: Reader) -> Score:
     got = model.translate_all([read(pair.text) for pair in pairs])
     return score(
         [pair.glosses for pair in pairs],

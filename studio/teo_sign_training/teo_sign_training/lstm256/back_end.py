@@ -120,11 +120,7 @@ class LstmBackEnd:
         return []
 
     def _known(self, match: Match, clauses: Sequence[Clause]) -> list[OutputWord] | None:
-        """Translate a sentence of the training data.
-
-        Args:
-            match: The sentence.
-            clauses: Where it was found; their marks go to the model with it.
+        """Translate a sentence of the training data; the marks of its clauses go to the model with it.
 
         Returns:
             Its output words, or None if the model is not sure or says something else than it was taught.
@@ -197,12 +193,7 @@ def _typed(words: Sequence[tuple[Word, ...]], places: Iterable[int]) -> tuple[st
 
 
 def _unclaimed(sources: Sequence[tuple[int, ...]], places: Iterable[int]) -> list[list[int]]:
-    """For each gloss the places of words without a gloss that go with it: with the gloss of the next word.
-
-    Args:
-        sources: For each gloss the places of the words that it stands for.
-        places: Of all words.
-    """
+    """For each gloss the places of words without a gloss that go with it: with the gloss of the next word."""
     owner: dict[int, int] = {}
     for index, own in enumerate(sources):
         for place in own:

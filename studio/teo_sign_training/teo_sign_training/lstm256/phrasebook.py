@@ -18,7 +18,7 @@ from teo_sign_translator.data_files import data_file
 from teo_sign_translator.text.reading import SentenceType, Word, WordKind, read, sentence_type
 
 #: Most words that are taken for one name ("María del Carmen de la Torre").
-MAX_NAME_WORDS = 6
+_MAX_NAME_WORDS = 6
 
 # Lower-case words inside names.
 _PARTICLES = frozenset({"de", "del", "la", "las", "los"})
@@ -82,7 +82,7 @@ class Phrasebook:
         #: Words of the longest sentence that can match.
         self.longest = max(
             [len(key) for key in self._literal]
-            + [len(pattern.tokens) + (MAX_NAME_WORDS - 1) * (NAME in pattern.tokens) for pattern in slotted],
+            + [len(pattern.tokens) + (_MAX_NAME_WORDS - 1) * (NAME in pattern.tokens) for pattern in slotted],
             default=0,
         )
 
@@ -148,7 +148,7 @@ class Phrasebook:
             return words[0].kind is WordKind.NUMBER or words[0].key == "x"
         if token == NAME:
             return (
-                len(words) <= MAX_NAME_WORDS
+                len(words) <= _MAX_NAME_WORDS
                 and self._is_name(words[0])
                 and self._is_name(words[-1])
                 and all(self._is_name(word) or word.lower in _PARTICLES for word in words)

@@ -184,12 +184,12 @@ class LstmModel:
 
 
 #: Of the cards of this kind of model.
-SCHEMA = 1
+_SCHEMA = 1
 
 
 def load_model(name: str, directory: Path | None = None) -> LstmModel:
     """Load a model; arguments and errors are those of `model_files.read_model`."""
-    return read_model(name, SCHEMA, directory, _built)
+    return read_model(name, _SCHEMA, directory, _built)
 
 
 def _built(card: dict[str, Any], weights: Weights) -> LstmModel:
@@ -206,15 +206,6 @@ def save_model(
     weights: Weights,
     card: Mapping[str, Any],
 ) -> None:
-    """Write weights, in half precision, and card.
-
-    Args:
-        name: Of the model and its two files.
-        directory: Made if it is missing.
-        inputs: Goes into the card, in the order of the weights' columns.
-        outputs: Likewise.
-        weights: As `LstmModel` takes them.
-        card: What else the card says.
-    """
+    """Write weights as of `LstmModel`, in half precision, and card; make the directory if it is missing."""
     lists = {"input": list(inputs.tokens), "output": list(outputs.tokens)}
-    write_model(name, directory, SCHEMA, weights, {**card, "vocabulary": lists}, indent=2)
+    write_model(name, directory, _SCHEMA, weights, {**card, "vocabulary": lists}, indent=2)

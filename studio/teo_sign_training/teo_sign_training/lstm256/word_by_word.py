@@ -105,11 +105,11 @@ class GlossList:
 
 #: A listed word that is a clause of its own ("Hola", "Gracias"): nothing is left to order, only the sense may
 #: be wrong.
-ALONE_CONFIDENCE = 0.9
+_ALONE_CONFIDENCE = 0.9
 #: A listed word among others: its sign is right, its place and form in the sentence are not looked at.
-LISTED_CONFIDENCE = 0.5
+_LISTED_CONFIDENCE = 0.5
 #: A name, or digits: spelled and counted as they are, at a place that is not looked at.
-NAME_CONFIDENCE = 0.5
+_NAME_CONFIDENCE = 0.5
 
 
 def word_by_word(words: Sequence[Word], glosses: GlossList) -> list[OutputWord]:
@@ -125,7 +125,7 @@ def word_by_word(words: Sequence[Word], glosses: GlossList) -> list[OutputWord]:
     while index < len(words):
         word = words[index]
         if word.kind is WordKind.NUMBER:
-            confidence = NAME_CONFIDENCE if len(content) > 1 else ALONE_CONFIDENCE
+            confidence = _NAME_CONFIDENCE if len(content) > 1 else _ALONE_CONFIDENCE
             result += number(word.value, word.parts, confidence)
             index += 1
             continue
@@ -133,7 +133,7 @@ def word_by_word(words: Sequence[Word], glosses: GlossList) -> list[OutputWord]:
         found = None if name else glosses.find_longest(_run(words, index, glosses.longest))
         if found is None:
             likely_name = word.capitalised and not shouted
-            confidence = NAME_CONFIDENCE if likely_name else SPELLED_CONFIDENCE
+            confidence = _NAME_CONFIDENCE if likely_name else SPELLED_CONFIDENCE
             result += spelled(word.lower, word.parts, confidence)
             index += 1
             continue
@@ -143,7 +143,7 @@ def word_by_word(words: Sequence[Word], glosses: GlossList) -> list[OutputWord]:
             result += [carried(w.lower, w.parts) for w in words[index : index + size]]
         else:
             alone = size == len(words)
-            confidence = ALONE_CONFIDENCE if alone else LISTED_CONFIDENCE
+            confidence = _ALONE_CONFIDENCE if alone else _LISTED_CONFIDENCE
             result.append(lexical(entry.gloss, typed, confidence, Origin.WORD_LIST))
         index += size
     return result

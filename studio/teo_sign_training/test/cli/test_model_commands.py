@@ -72,7 +72,9 @@ def test_train_refuses_a_model_and_a_corpus_that_do_not_exist(tmp_path: Path, co
 def test_the_zoo_is_compared_in_a_table_and_plots_and_evaluated(
     corpus: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    compare.run(corpus=corpus, out=tmp_path, model=["gru", "pointer"], pairs=150, epochs=2, seed=1)
+    compare.run(
+        corpus=corpus, out=tmp_path, model=["gru", "pointer"], pairs=150, epochs=2, seed=1, device="cpu"
+    )
     assert "pointer" in capsys.readouterr().out
     rows = (tmp_path / "comparison.csv").read_text("utf-8").splitlines()
     assert [row.split(",")[0] for row in rows] == ["model", "gru", "pointer"]

@@ -13,9 +13,7 @@ import pytest
 import simplemma
 
 from teo_sign_training.corpus.generator import LARGEST_SHARE, SHARES
-from teo_sign_training.corpus.paper_pairs import own_pairs, paper_pairs
 from teo_sign_translator.data_files import data_file, read_rows
-from teo_sign_translator.morphology import gloss_name
 from teo_sign_translator.morphology.spanish import unaccented as strip_accents
 from teo_sign_translator.text.source_words import source_words
 
@@ -32,9 +30,9 @@ def train(pairs):
 
 
 def test_the_same_seed_gives_the_same_pairs_and_another_seed_others(generator):
-    first = list(generator.pairs(250, seed=1))
-    assert first == list(generator.pairs(250, seed=1))
-    assert first != list(generator.pairs(250, seed=2))
+    first = list(generator.pairs(100, seed=1))
+    assert first == list(generator.pairs(100, seed=1))
+    assert first != list(generator.pairs(100, seed=2))
 
 
 def test_every_sentence_occurs_once_but_set_phrases_and_every_split_has_its_share(generator, pairs):
@@ -251,12 +249,3 @@ def test_time_comes_first_and_replaces_the_mark_of_tense(train):
         first = [pair for pair in found if f"desde {spanish}" not in pair.text.lower()]
         assert all(pair.glosses[0] == gloss for pair in first if spanish != "ayer" or "AYER" in pair.glosses)
         assert not [pair for pair in found if "PASADO" in pair.glosses[:1] or "FUTURO" in pair.glosses]
-
-
-def test_the_papers_sentences_are_in_the_corpus_as_the_paper_translates_them(morphology):
-    own = {pair.text: pair.glosses for pair in own_pairs(morphology)}
-    for pair in paper_pairs():
-        if "X" not in pair.sentence:
-            assert own[pair.sentence] == tuple(map(gloss_name, pair.glosses))
-    assert own["Yo tengo nueve años"] == ("YO", "EDAD", "9")
-    assert own["Me llamo Lucía"] == ("MI", "NOMBRE", "LUCÍA")

@@ -81,11 +81,6 @@ def test_a_training_that_cannot_be_done_is_refused(change: dict[str, Any]) -> No
         TrainingConfig(**change)
 
 
-def test_a_device_is_taken_by_its_name_and_the_best_one_without() -> None:
-    assert named_device("cpu") == torch.device("cpu")
-    assert named_device(None) == torch.device("cuda" if torch.cuda.is_available() else "cpu")
-
-
 @pytest.mark.parametrize("name", ["gpu", "", "cuda:99", "meta:x"])
 def test_a_device_that_is_not_there_is_refused_with_its_name(name: str) -> None:
     with refused("invalid_config", f"got '{name}'"):

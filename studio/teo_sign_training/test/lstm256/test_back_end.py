@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pytest
-from refusals import refused
 
 from teo_sign_training.corpus.paper_pairs import training_pairs
 from teo_sign_training.lstm256.back_end import LstmBackEnd
@@ -14,7 +13,6 @@ from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.output.sign_choice import SignChooser, SubstituteLists
 from teo_sign_translator.output.translation import Origin, Sentence
 from teo_sign_translator.pipeline.translator import Translator
-from teo_sign_translator.text.cleaning import MAX_TEXT_LENGTH
 from teo_sign_translator.text.reading import SentenceType
 
 
@@ -124,21 +122,6 @@ def test_a_published_sentence_has_its_type_without_marks_too(
     translator: Translator, text: str, kind: SentenceType
 ) -> None:
     assert _only(translator, text).type is kind
-
-
-@pytest.mark.parametrize(
-    ("text", "code"),
-    [
-        ("", "empty_text"),
-        ("😀👍🏽", "nothing_to_sign"),
-        ("Привет", "unsignable_text"),
-        ("Hola \ud83d", "broken_encoding"),
-        ("a" * (MAX_TEXT_LENGTH + 1), "text_too_long"),
-    ],
-)
-def test_what_cannot_be_signed_is_refused_with_a_reason(translator: Translator, text: str, code: str) -> None:
-    with refused(code):
-        translator.translate(text)
 
 
 def test_the_refusal_names_the_characters(translator: Translator) -> None:

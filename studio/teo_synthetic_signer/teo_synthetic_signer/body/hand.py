@@ -186,8 +186,7 @@ class Hand:
 
     def to_body(self, direction: FloatArray) -> FloatArray:
         """Bring a direction in the hand's axes to those of the body at rest."""
-        turned: FloatArray = self.axes @ np.asarray(direction, dtype=np.float64)
-        return turned
+        return self.axes @ np.asarray(direction, dtype=np.float64)
 
     def bones(self, shape: HandShape) -> dict[str, FloatArray]:
         """Work out by how much each finger's bones move while the wrist stays at rest.

@@ -55,8 +55,7 @@ class Arm:
         shortest = math.sqrt(
             self.upper**2 + self.fore**2 + 2.0 * self.upper * self.fore * math.cos(math.radians(150.0))
         )
-        nearest: FloatArray = shoulder + away / distance * min(max(distance, shortest), longest)
-        return nearest
+        return shoulder + away / distance * min(max(distance, shortest), longest)
 
     def elbow_at(self, shoulder: FloatArray, wrist: FloatArray, swivel: float) -> FloatArray:
         """Place the elbow.
@@ -74,8 +73,7 @@ class Arm:
         hanging = np.array([-0.45, 0.0, -1.0]) + 0.42 * self._outwards  # down, a little back and outwards
         down = perpendicular(hanging, line)
         turned = turn(line, swivel * (1.0 if self.side == "R" else -1.0)) @ down
-        elbow: FloatArray = shoulder + along * line + radius * turned
-        return elbow
+        return shoulder + along * line + radius * turned
 
     def easiest_swivel(
         self, shoulder: FloatArray, wrist: FloatArray, hand: FloatArray, *, outside: bool = False
@@ -125,8 +123,7 @@ class Arm:
     ) -> FloatArray:
         """Put the hand's rotation together again: the inverse of `wrist_joint`. Shape (3, 3)."""
         along = unit(self.wrist - self.elbow)
-        hand: FloatArray = self._fore_rotation(shoulder, elbow, wrist) @ swing @ turn(along, roll)
-        return hand
+        return self._fore_rotation(shoulder, elbow, wrist) @ swing @ turn(along, roll)
 
     def bones(
         self, shoulder: FloatArray, elbow: FloatArray, wrist: FloatArray, hand: FloatArray, parent: FloatArray
@@ -246,6 +243,10 @@ class ArmPose:
     shape: HandShape = field(default_factory=lambda: HAND_SHAPES["relaxed"])
 
 
+# Forwards, to the left and above the floor [m].
+Foot = tuple[float, float, float]
+
+
 @dataclass(frozen=True, kw_only=True)
 class BodyPose:
     """What a person does.
@@ -265,7 +266,7 @@ class BodyPose:
     heading: float = 0.0
     lean: tuple[float, float, float] = (0.0, 0.0, 0.0)
     head: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    feet: Mapping[str, tuple[float, float, float]] | None = None
+    feet: Mapping[str, Foot] | None = None
     face: Mapping[str, float] = field(default_factory=dict)
 
 
@@ -287,14 +288,15 @@ class Poser:
         """Give the transform of each bone from rest. Shape (bones, 4, 4)."""
         rig = self.rig
         turned = self._trunk(pose)
-        root = self._root(pose)
+        feet = self.standing_feet() if pose.feet is None else pose.feet
+        root = self._root(pose, feet)
         placed: dict[str, FloatArray] = {}
         chest = rig.transforms(turned, {}, root)[rig.bone("spine01")]
         for side in SIDES:
             girdle, arm = self.arm_bones(side, pose.arms[side])
             turned |= girdle
             placed |= {name: chest @ transform for name, transform in arm.items()}
-            placed |= self._leg_bones(side, pose, root)
+            placed |= self._leg_bones(side, feet[side], root)
         return rig.transforms(turned, placed, root)
 
     def limb(self, side: str, wrist: FloatArray, swivel: float) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -333,12 +335,10 @@ class Poser:
             placed[name] = placed[f"wrist.{side}"] @ transform
         return {f"clavicle.{side}": girdle[:3, :3]}, placed
 
-    def _root(self, pose: BodyPose) -> FloatArray:
-        legs = [self.legs[side] for side in SIDES]
-        feet = self.standing_feet() if pose.feet is None else pose.feet
+    def _root(self, pose: BodyPose, feet: Mapping[str, Foot]) -> FloatArray:
         # As high as the legs can carry the hips, were the feet below them.
         drop = 0.0
-        for side, leg in zip(SIDES, legs, strict=True):
+        for side, leg in self.legs.items():
             aside = math.hypot(feet[side][0] - pose.place[0], feet[side][1] - pose.place[1] - leg.hip[1])
             highest = math.sqrt(max(0.01, (0.999 * leg.longest) ** 2 - aside**2)) + leg.ankle[2]
             drop = min(drop, highest - leg.hip[2])
@@ -346,17 +346,16 @@ class Poser:
         root[:3, 3] = [*pose.place, drop]
         return root
 
-    def standing_feet(self) -> dict[str, tuple[float, float, float]]:
+    def standing_feet(self) -> dict[str, Foot]:
         """Give the feet of a person who stands: below the hips and a little apart."""
         return {
             side: (float(self.legs[side].ankle[0]), 1.15 * float(self.legs[side].hip[1]), 0.0)
             for side in SIDES
         }
 
-    def _leg_bones(self, side: str, pose: BodyPose, root: FloatArray) -> dict[str, FloatArray]:
+    def _leg_bones(self, side: str, foot: Foot, root: FloatArray) -> dict[str, FloatArray]:
         leg = self.legs[side]
-        feet = self.standing_feet() if pose.feet is None else pose.feet
-        forwards, left, above = feet[side]
+        forwards, left, above = foot
         hip = (root @ [*leg.hip, 1.0])[:3]
         return leg.bones(hip, np.array([forwards, left, above + leg.ankle[2]]), root[:3, :3])
 

@@ -159,11 +159,17 @@ class Rig:
             result[i] = above
         return result
 
-    def skin(self, vertices: FloatArray, transforms: FloatArray) -> FloatArray:
-        """Bring vertices from rest to a pose, by linear blend skinning. Shape (n, 3)."""
-        blended = (self.weights @ transforms[:, :3].reshape(-1, 12)).reshape(-1, 3, 4)
-        moved: FloatArray = np.einsum("nij,nj->ni", blended[:, :, :3], vertices) + blended[:, :, 3]
-        return moved
+
+def blended(weights: csr_array, transforms: FloatArray) -> FloatArray:
+    """Blend the transforms of bones by how much each vertex follows them. Shape (n, 3, 4)."""
+    blend: FloatArray = (weights @ transforms[:, :3].reshape(-1, 12)).reshape(-1, 3, 4)
+    return blend
+
+
+def skinned(blend: FloatArray, vertices: FloatArray) -> FloatArray:
+    """Bring vertices from rest to a pose, by linear blend skinning. Shape (n, 3)."""
+    moved: FloatArray = np.einsum("nij,nj->ni", blend[:, :, :3], vertices) + blend[:, :, 3]
+    return moved
 
 
 _ARM_BONES = ("upperarm", "lowerarm", "wrist", "metacarpal", "finger")
@@ -267,8 +273,7 @@ class Places:
         outside = start + _OUTSIDE * np.array(direction)
         ray = -np.array([direction], dtype=np.float32)
         distance = float(RayCaster(self._triangles - outside).cast(ray).distance[0])
-        found: FloatArray = outside - distance * np.array(direction)
-        return found
+        return outside - distance * np.array(direction)
 
 
 def arm_share(rig: Rig) -> FloatArray:

@@ -22,8 +22,7 @@ def cross(a: FloatArray, b: FloatArray) -> FloatArray:
 def unit(vector: FloatArray) -> FloatArray:
     """Scale a vector to length 1; it must not be zero."""
     vector = np.asarray(vector, dtype=np.float64)
-    scaled: FloatArray = vector / math.sqrt(vector @ vector)
-    return scaled
+    return vector / math.sqrt(vector @ vector)
 
 
 def perpendicular(vector: FloatArray, axis: FloatArray) -> FloatArray:

@@ -26,7 +26,7 @@ from teo_synthetic_signer.body.body_data import (
 )
 from teo_synthetic_signer.body.body_shapes import BODIES, BodyShape
 from teo_synthetic_signer.body.pose import BodyPose, Poser
-from teo_synthetic_signer.body.rig import SIDES, Rig
+from teo_synthetic_signer.body.rig import SIDES, Rig, blended, skinned
 from teo_synthetic_signer.body.surface import Material, Surface, vertex_normals
 from teo_synthetic_signer.errors import SyntheticError, named
 
@@ -41,7 +41,7 @@ _HAIR_THICKNESS = 0.016
 _COLLAR_SLOPE = 0.35  # how much lower the collar is in front, of the way forwards
 
 
-class Dress:
+class _Dress:
     """The visible surface of one person.
 
     Attributes:
@@ -51,7 +51,6 @@ class Dress:
     """
 
     def __init__(self, rig: Rig, shape: BodyShape) -> None:
-        """Dress a body."""
         data = load_body_data()
         groups = data.groups
         self._rig = rig
@@ -88,7 +87,7 @@ class Dress:
         _tint(colors, _brows(rig, body), shape.hair, 0.85)
         patterns = rig.vertices.copy()
         patterns[covered, 2] = ((z - waist) / (collar - waist))[covered]
-        for side in ("R", "L"):
+        for side in SIDES:
             chosen = np.unique(groups[f"helper-{side.lower()}-eye"])
             patterns[chosen] = rig.vertices[chosen] - rig.head(f"eye.{side}")
         parts = [(bare, Material.PLAIN), (eyes, Material.EYE), (worn, Material.CLOTH)]
@@ -122,15 +121,14 @@ def _moved_by(triangles: IntArray, *prefixes: str) -> BoolArray:
     """Tell which triangles follow bones whose names start so. Shape (t,)."""
     bones = load_body_data().bones
     chosen = np.array([name.startswith(prefixes) for name in bones])
-    moved: BoolArray = chosen[_strongest_bone(triangles)]
-    return moved
+    return chosen[_strongest_bone(triangles)]
 
 
 def _along_arms(rig: Rig) -> FloatArray:
     """Tell how far along its arm each vertex is: 0 shoulder, 1 elbow, 2 wrist; below 0 off the arms."""
     data = load_body_data()
     result = np.full(len(rig.vertices), -1.0)
-    for side in ("R", "L"):
+    for side in SIDES:
         joints = [rig.head(f"{name}.{side}") for name in ("upperarm01", "lowerarm01", "wrist")]
         on_arm = np.zeros(len(rig.vertices), dtype=bool)
         for i, name in enumerate(data.bones):
@@ -277,7 +275,7 @@ class Signer:
         shape = named("body", name, BODIES)
         self.rig = Rig.of(shape.phenotype)
         self.poser = Poser(self.rig)
-        self.dress = Dress(self.rig, shape)
+        self.dress = _Dress(self.rig, shape)
         self._weights = self.rig.weights[self.dress.sources]
         groups = load_body_data().groups
         self._eyes = {}
@@ -293,10 +291,8 @@ class Signer:
 
     def vertices(self, pose: BodyPose, transforms: FloatArray) -> FloatArray:
         """Give where the vertices of the visible surface are [m]. Shape (n, 3)."""
-        blended = (self._weights @ transforms[:, :3].reshape(-1, 12)).reshape(-1, 3, 4)
         rest = self.dress.vertices + self._moved_face(pose.face)[self.dress.sources]
-        placed: FloatArray = np.einsum("nij,nj->ni", blended[:, :, :3], rest) + blended[:, :, 3]
-        return placed
+        return skinned(blended(self._weights, transforms), rest)
 
     def keypoints(self, pose: BodyPose, transforms: FloatArray) -> tuple[FloatArray, ...]:
         """Give the true places of the keypoints [m]: BODY_25, left hand, right hand, face."""
@@ -309,12 +305,8 @@ class Signer:
             return moved
 
         def skin(vertices: tuple[int, ...]) -> FloatArray:
-            rows = self.rig.weights[list(vertices)] @ transforms[:, :3].reshape(-1, 12)
-            blended = rows.reshape(-1, 3, 4)
-            moved: FloatArray = (
-                np.einsum("nij,nj->ni", blended[:, :, :3], rest[list(vertices)]) + blended[:, :, 3]
-            )
-            return moved
+            rows = list(vertices)
+            return skinned(blended(self.rig.weights[rows], transforms), rest[rows])
 
         body = np.empty((len(BODY_25), 3))
         pupils = []

@@ -70,8 +70,7 @@ def vertex_normals(vertices: FloatArray, triangles: IntArray) -> FloatArray:
                 triangles[:, corner], weights=facing[:, axis], minlength=len(vertices)
             )
     length = np.linalg.norm(normals, axis=1, keepdims=True)
-    scaled: FloatArray = normals / np.where(length > 0.0, length, 1.0)
-    return scaled
+    return normals / np.where(length > 0.0, length, 1.0)
 
 
 class Hits(NamedTuple):

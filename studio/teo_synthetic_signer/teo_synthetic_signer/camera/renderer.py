@@ -60,21 +60,14 @@ _IRIS_ANGLE, _PUPIL_ANGLE = 0.52, 0.21
 _GAMMA = np.float32(1.0 / 2.2)  # of displays
 
 
-class Painter:
+class _Painter:
     """Paints one surface.
 
     Nothing throws a shadow: detectors do not need it, and it would double the rays.
     """
 
     def __init__(self, surface: Surface, normals: FloatArray, upright: FloatArray, light: Light) -> None:
-        """Prepare to paint.
-
-        Args:
-            surface: What is there.
-            normals: Of its vertices, in the axes of the camera. Shape (n, 3).
-            upright: Rotation from the room's axes to the camera's. Shape (3, 3).
-            light: In the room.
-        """
+        """Prepare to paint a surface with the normals of its vertices, in the camera's axes; shape (n, 3)."""
         self._light = light
         self._lamp = unit(np.array(light.towards)).astype(np.float32)
         self._tint = np.array(light.tint, dtype=np.float32)
@@ -209,7 +202,7 @@ class Renderer:
         self._pixels = np.column_stack([columns.ravel(), rows.ravel()]).astype(np.float64)
         self._rays = self._directions(self._pixels)
         self.room = RayCaster(walls[room.triangles])
-        self._room_painter = Painter(room, vertex_normals(walls, room.triangles), upright, light)
+        self._room_painter = _Painter(room, vertex_normals(walls, room.triangles), upright, light)
         everything = np.arange(len(self._rays))
         self._color = np.full((len(self._rays), 3), _NOTHING)
         self._distance = np.full(len(self._rays), np.inf, dtype=np.float32)
@@ -225,11 +218,11 @@ class Renderer:
         """
         color, distance, facing = self._color.copy(), self._distance.copy(), self._facing.copy()
         mask = np.zeros(self._shape, dtype=np.uint8)
-        layers: list[tuple[RayCaster, Painter]] = []
+        layers: list[tuple[RayCaster, _Painter]] = []
         for person, body in zip(people, self._bodies, strict=True):
             caster = RayCaster(person[body.triangles])
             normals = vertex_normals(person, body.triangles)
-            painter = Painter(body, normals, self._upright, self._light)
+            painter = _Painter(body, normals, self._upright, self._light)
             mask.ravel()[self._draw(caster, painter, self._around(person), color, distance, facing)] = 1
             layers.append((caster, painter))
         mask = cv2.dilate(mask, np.ones((3, 3), dtype=np.uint8)).astype(np.uint8)
@@ -259,7 +252,7 @@ class Renderer:
     def _draw(
         self,
         caster: RayCaster,
-        painter: Painter,
+        painter: _Painter,
         pixels: NDArray[np.int64],
         color: Floats,
         distance: Floats,
@@ -286,7 +279,7 @@ class Renderer:
         return rough.ravel()
 
     def _smooth(
-        self, color: Floats, pixels: NDArray[np.int64], people: Sequence[tuple[RayCaster, Painter]]
+        self, color: Floats, pixels: NDArray[np.int64], people: Sequence[tuple[RayCaster, _Painter]]
     ) -> None:
         """Paint pixels anew, each the mean of four rays."""
         if len(pixels) == 0:

@@ -241,13 +241,7 @@ class DepthModel:
     """One sensor's depth, aligned to its colour image."""
 
     def __init__(self, sensor: Sensor, camera: CameraModel, random: np.random.Generator) -> None:
-        """Prepare.
-
-        Args:
-            sensor: What measures.
-            camera: The colour image to which depth is aligned.
-            random: Where noise comes from.
-        """
+        """Prepare to measure for the colour image of `camera`, to which depth is aligned."""
         self._sensor = sensor
         self._random = random
         # Where the sensor's own pixels are coarser, several pixels of the colour image show the same one.
@@ -278,8 +272,7 @@ class DepthModel:
         measured = np.round(measured / self._sensor.step) * self._sensor.step
         known &= (measured >= self._sensor.nearest) & (measured <= self._sensor.farthest)
         given = np.where(known, measured, np.nan).astype(np.float32)
-        aligned: DepthArray = given[self._row_of][:, self._column_of]
-        return aligned
+        return given[self._row_of][:, self._column_of]
 
     def _field(self, shape: tuple[int, ...], size: float) -> FloatArray:
         """Draw noise of variance 1 that is alike over `size` pixels."""
@@ -298,8 +291,7 @@ class DepthModel:
             np.clip(rows + up, 0, depth.shape[0] - 1), np.clip(columns + aside, 0, depth.shape[1] - 1)
         ]
         at_edge, _, _ = _edges(depth)
-        displaced: FloatArray = np.where(at_edge, near, depth)
-        return displaced
+        return np.where(at_edge, near, depth)
 
     def _shadow(self, depth: FloatArray) -> BoolArray:
         """Find what the second eye, right of the first, cannot see: something nearer is before it there."""
@@ -328,8 +320,7 @@ class DepthModel:
         sensor = self._sensor
         noise = self._field(depth.shape, sensor.correlation)
         if sensor.principle is Principle.TIME_OF_FLIGHT:
-            noisy: FloatArray = depth * (1.0 + sensor.error * noise)
-            return noisy
+            return depth * (1.0 + sensor.error * noise)
         scale = sensor.depth_focal * sensor.baseline
         disparity = scale / depth + sensor.error * noise
         if sensor.disparity_step > 0.0:

@@ -102,11 +102,10 @@ def visible(
     owners = (*_body(), *_hand("L"), *_hand("R"), *_face())
     points = np.concatenate(parts)
     front = points[:, 2] > 1e-6
-    directions = np.where(
-        front[:, None], points / np.where(front, points[:, 2], 1.0)[:, None], [0.0, 0.0, 1.0]
-    )
-    hits = person.cast(directions.astype(np.float32))
-    before = np.min([other.cast(directions.astype(np.float32)).distance for other in around], axis=0)
+    away = points / np.where(front, points[:, 2], 1.0)[:, None]
+    directions = np.where(front[:, None], away, [0.0, 0.0, 1.0]).astype(np.float32)
+    hits = person.cast(directions)
+    before = np.min([other.cast(directions).distance for other in around], axis=0)
     inside = np.zeros(len(points), dtype=bool)
     inside[front] = camera.contains(camera.project(points[front]))
     seen = np.zeros(len(points), dtype=bool)

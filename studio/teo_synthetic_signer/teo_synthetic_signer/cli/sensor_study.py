@@ -25,7 +25,6 @@ from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.detectors import make_detector
 from teo_skeleton_retriever.layouts.layout import BODY_25, HAND_21
 from teo_skeleton_retriever.retriever import DetectionFrame, Retriever, RetrieverParameters
-from teo_synthetic_signer import SyntheticFrame
 from teo_synthetic_signer.camera.sensors import SENSORS, Sensor
 from teo_synthetic_signer.take.take import Take, TakeOptions
 
@@ -63,14 +62,8 @@ class Study(NamedTuple):
     """likewise"""
 
 
-def study(name: str, distance: float, frames: int) -> Study:
-    """Measure one device at one distance.
-
-    Args:
-        name: Of the device, one of `SENSORS`.
-        distance: From the camera to the person [m].
-        frames: Of each of the two parts of the script.
-    """
+def _study(name: str, distance: float, frames: int) -> Study:
+    """Measure one device at one distance [m] in so many frames of each of the two parts of the script."""
     sensor = SENSORS[name]
     across, down = (math.tan(angle / 2.0) for angle in sensor.color_view)
     take = Take(
@@ -86,7 +79,7 @@ def study(name: str, distance: float, frames: int) -> Study:
             retriever = Retriever(RetrieverParameters(newcomer_images=1))
             for index in range(start, start + frames):
                 image = take.frame(index)
-                space = _signing_space_seen(image, sensor) if math.isnan(space) else space
+                space = seen_share(image.camera, sensor, image.truth.body) if math.isnan(space) else space
                 people = detector.detect(image.color, image.stamp)
                 found = retriever.process(DetectionFrame(image.stamp, people, image.depth, image.camera))
                 body, tips = np.full((25, 3), math.nan), np.full((10, 3), math.nan)
@@ -105,43 +98,19 @@ def study(name: str, distance: float, frames: int) -> Study:
     return Study(name, distance, space, *_summary(wrists), *_summary(fingertips))
 
 
-def _signing_space_seen(image: SyntheticFrame, sensor: Sensor) -> float:
-    """Tell the share of the signing space that is in the image and within the device's range.
-
-    Args:
-        image: From which the place of the person is taken.
-        sensor: The device.
-    """
-    row = BODY_25.index
-    body = image.truth.body
-    return seen_share(
-        image.camera,
-        sensor,
-        nose=body[row["Nose"]],
-        hips=body[row["MidHip"]],
-        shoulders=(body[row["RShoulder"]], body[row["LShoulder"]]),
-    )
-
-
-def seen_share(
-    camera: CameraModel,
-    sensor: Sensor,
-    *,
-    nose: FloatArray,
-    hips: FloatArray,
-    shoulders: tuple[FloatArray, FloatArray],
-) -> float:
-    """Tell the share of a person's signing space that a camera sees.
+def seen_share(camera: CameraModel, sensor: Sensor, body: FloatArray) -> float:
+    """Tell the share of a person's signing space that is in the image and within the sensor's range.
 
     Args:
         camera: That looks at it.
         sensor: Whose range counts.
-        nose: Place in the camera's frame [m]. Shape (3,), as the others.
-        hips: Middle of the hips [m].
-        shoulders: Right and left [m].
+        body: Keypoints of BODY_25 in the camera's frame [m]. Shape (25, 3).
     """
-    chest = (shoulders[0] + shoulders[1]) / 2.0
-    left = (shoulders[1] - shoulders[0]) / np.linalg.norm(shoulders[1] - shoulders[0])
+    nose, hips, right_shoulder, left_shoulder = (
+        body[BODY_25.index[name]] for name in ("Nose", "MidHip", "RShoulder", "LShoulder")
+    )
+    chest = (right_shoulder + left_shoulder) / 2.0
+    left = (left_shoulder - right_shoulder) / np.linalg.norm(left_shoulder - right_shoulder)
     up = chest - hips
     up = (up - left * (up @ left)) / np.linalg.norm(up - left * (up @ left))
     ahead = np.cross(left, up)
@@ -156,9 +125,8 @@ def seen_share(
 
 
 def _off(found: FloatArray, truth: FloatArray, seen: BoolArray) -> FloatArray:
-    """Give the distances of those that can be seen [m]; NaN where not found."""
-    distances: FloatArray = np.linalg.norm(found - truth, axis=1)[seen]
-    return distances
+    """The distances of those that can be seen [m]; NaN where not found."""
+    return np.asarray(np.linalg.norm(found - truth, axis=1)[seen])
 
 
 def _summary(errors: FloatArray) -> tuple[float, float]:
@@ -184,16 +152,15 @@ def _sensor_study(
         raise typer.BadParameter(f"expected devices among {', '.join(SENSORS)}, got {', '.join(unknown)}")
     cases = [(name, distance) for name in names for distance in DISTANCES]
     results = [
-        study(*case, frames)
+        _study(*case, frames)
         for case in track(cases, "devices and distances", console=_out, disable=not _out.is_terminal)
     ]
-    _out.print(table(results))
+    _out.print(_table(results))
     write_csv(results, out)
     _out.print(f"written: {out}")
 
 
-def table(results: Sequence[Study]) -> Table:
-    """Lay results out for people: errors in millimetres, beside the share that was found."""
+def _table(results: Sequence[Study]) -> Table:
     lines = Table("device", "distance", "signing space seen", "wrists", "found", "fingertips", "found")
     for result in results:
         wrists, tips = (

@@ -17,7 +17,7 @@ from teo_skeleton_retriever.arrays import FloatArray
 from teo_synthetic_signer.body.body_data import load_body_data
 from teo_synthetic_signer.body.hand import hand_point
 from teo_synthetic_signer.body.pose import ArmPose, Poser
-from teo_synthetic_signer.body.rig import SIDES, arm_share
+from teo_synthetic_signer.body.rig import SIDES, arm_share, blended, skinned
 from teo_synthetic_signer.body.rotations import unit
 from teo_synthetic_signer.body.surface import vertex_normals
 
@@ -36,7 +36,7 @@ _ENOUGH = 5e-4
 _FAR_APART = 0.7
 # Added to the way from the left hand to the right one: where they are one, they part to their sides [m].
 _TO_THE_RIGHT = np.array([0.0, -0.01, 0.0])
-# How far clothes stand off the trunk's skin [m]; see `appearance.py`.
+# How far clothes stand off the trunk's skin [m]; see `signer`.
 _CLOTH = 0.006
 
 
@@ -68,7 +68,8 @@ class Clearing:
         skin = np.unique(triangles)
         share = arm_share(rig)
         self._trunk = _Skin(*(field[skin[share[skin] < 0.3]] for field in (rig.vertices, self._normals)))
-        self._trunk.places[:] += _CLOTH * self._trunk.normals * (self._trunk.places[:, 2:] < self._collar())
+        collar = float(rig.head("neck01")[2])
+        self._trunk.places[:] += _CLOTH * self._trunk.normals * (self._trunk.places[:, 2:] < collar)
         self._tree = cKDTree(self._trunk.places)
         self._limbs = {side: self._limb(side, skin) for side in SIDES}
         self._known: dict[str, tuple[ArmPose, ArmPose]] = {}
@@ -145,8 +146,7 @@ class Clearing:
     def _middle(self, side: str, pose: ArmPose) -> FloatArray:
         """Give the middle of a hand, between wrist and middle knuckle, in the axes of the chest [m]."""
         hand = self._poser.hands[side]
-        middle: FloatArray = pose.wrist + pose.hand @ (hand_point(hand, pose.shape, "palm") - hand.wrist)
-        return middle
+        return pose.wrist + pose.hand @ (hand_point(hand, pose.shape, "palm") - hand.wrist)
 
     @staticmethod
     def _inside(points: FloatArray, skin: _Skin, tree: cKDTree) -> FloatArray:
@@ -163,9 +163,6 @@ class Clearing:
         move: FloatArray = depths.max() * way / length
         return move
 
-    def _collar(self) -> float:
-        return float(self._poser.rig.head("neck01")[2])
-
     def _limb(self, side: str, skin: NDArray[np.int64]) -> _Limb:
         rig = self._poser.rig
         bones = tuple(name for name in load_body_data().bones if name.endswith(f".{side}"))
@@ -181,11 +178,9 @@ class Clearing:
         vertices, weights, bones = self._limbs[side]
         _, placed = self._poser.arm_bones(side, pose)
         transforms = np.array([placed[name][:3] for name in bones])
-        blended = (weights @ transforms.reshape(-1, 12)).reshape(-1, 3, 4)
-        at_rest = self._poser.rig.vertices[vertices]
-        places = np.einsum("nij,nj->ni", blended[:, :, :3], at_rest) + blended[:, :, 3]
-        normals = np.einsum("nij,nj->ni", blended[:, :, :3], self._normals[vertices])
-        return _Skin(places, normals)
+        blend = blended(weights, transforms)
+        normals = np.einsum("nij,nj->ni", blend[:, :, :3], self._normals[vertices])
+        return _Skin(skinned(blend, self._poser.rig.vertices[vertices]), normals)
 
 
 def _trees(skins: Mapping[str, _Skin]) -> dict[str, cKDTree]:

@@ -120,13 +120,9 @@ class KeyResolver:
         return way
 
     def arm(self, side: str, key: ArmKey, other: ArmPose | None, *, outside: bool = False) -> ArmPose:
-        """Resolve one arm.
+        """Resolve one arm; `other` is what the other one does, if its place is asked for.
 
-        Args:
-            side: "R" or "L".
-            key: What it does.
-            other: What the other arm does, if its place is asked for.
-            outside: Keep the elbow out of the trunk.
+        With `outside` the elbow is kept out of the trunk.
 
         Raises:
             SyntheticError: A place, point or shape that does not exist.
@@ -165,6 +161,5 @@ class KeyResolver:
         if at in OTHER_HAND and other is not None:
             hand = self._poser.hands["L" if side == "R" else "R"]
             point = hand_point(hand, other.shape, OTHER_HAND[at])
-            anchor: FloatArray = other.wrist + other.hand @ (point - hand.wrist)
-            return anchor
+            return other.wrist + other.hand @ (point - hand.wrist)
         raise unknown_name("place", at, (*PLACES, *(f"{name} (one hand only)" for name in OTHER_HAND)))

@@ -237,7 +237,7 @@ class ScriptText(BaseModel):
 
 
 # By which a script's file is told from a script's name.
-SUFFIXES = (".yaml", ".yml")
+_SUFFIXES = (".yaml", ".yml")
 # A minute of signing is 50 kB; this is no script.
 _MOST_BYTES = 2_000_000
 # Codes of files that are none, of scripts.
@@ -266,7 +266,7 @@ def script_of(name: str) -> Script:
     Raises:
         SyntheticError: As `script` or `read_script`.
     """
-    if name.lower().endswith(SUFFIXES):
+    if name.lower().endswith(_SUFFIXES):
         return read_script(Path(name))
     return Script(script(name), about(name))
 

@@ -277,17 +277,6 @@ _ABOUT = {
 }
 
 
-def add_script(name: str, keys: Sequence[Key], what: str) -> None:
-    """Make a script known by a name, in place of one that has it.
-
-    Args:
-        name: By which it can be asked for from now on.
-        keys: What is done; the first says where both arms are.
-        what: Happens in it, in a few words.
-    """
-    SCRIPTS[name], _ABOUT[name] = tuple(keys), what
-
-
 def script(name: str) -> tuple[Key, ...]:
     """Give a script by name.
 

@@ -272,8 +272,7 @@ class Take:
             color = np.repeat(color.mean(axis=2, keepdims=True), 3, axis=2)
         noise = random.standard_normal(color.shape, dtype=np.float32)
         steps = np.rint((color + _COLOR_NOISE * noise) * 255.0)
-        image: NDArray[np.uint8] = np.clip(steps, 0, 255).astype(np.uint8)
-        return image
+        return np.clip(steps, 0, 255).astype(np.uint8)
 
     def _depth(self, rendered: Rendered, random: np.random.Generator) -> DepthArray:
         if self._options.perfect_depth:
@@ -319,16 +318,11 @@ class Take:
         return np.stack([right, down, ahead]) @ about.T, place
 
     def _seen(self, points: FloatArray) -> FloatArray:
-        seen: FloatArray = (points - self._position) @ self._rotation.T
-        return seen
+        return (points - self._position) @ self._rotation.T
 
 
 def render_take(*, frames: range | None = None, **options: Any) -> Iterator[SyntheticFrame]:
     """Render a take, frame by frame.
-
-    Args:
-        frames: Which, all if None.
-        options: As of `TakeOptions`.
 
     Yields:
         The frames, in order.

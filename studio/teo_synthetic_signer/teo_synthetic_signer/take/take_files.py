@@ -40,13 +40,11 @@ _DEPTH_HEADER = np.zeros(12, dtype=np.uint8)  # of compressedDepth; its terms ma
 _NANOSECONDS = 1_000_000_000
 
 
-def header(time: int) -> Header:
-    """Give the header of everything in one frame, taken at a time [ns since the epoch]."""
+def _header(time: int) -> Header:
     return Header(stamp=Time(sec=time // _NANOSECONDS, nanosec=time % _NANOSECONDS), frame_id=FRAME_ID)
 
 
-def camera_info(camera: CameraModel, at: Header) -> Any:
-    """Describe a camera without distortion, as a sensor_msgs/CameraInfo."""
+def _camera_info(camera: CameraModel, at: Header) -> Any:
     k = [camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0]
     p = [camera.fx, 0.0, camera.cx, 0.0, 0.0, camera.fy, camera.cy, 0.0, 0.0, 0.0, 1.0, 0.0]
     region = _message("RegionOfInterest", x_offset=0, y_offset=0, height=0, width=0, do_rectify=False)
@@ -66,31 +64,29 @@ def camera_info(camera: CameraModel, at: Header) -> Any:
     )
 
 
-def color_image(frame: SyntheticFrame, at: Header) -> Any:
-    """Give the colour image, not compressed, as a sensor_msgs/Image."""
+def _color_image(frame: SyntheticFrame, at: Header) -> Any:
     return _image(frame.color, "rgb8", at)
 
 
-def depth_image(frame: SyntheticFrame, at: Header) -> Any:
-    """Give the depth image, not compressed [mm], as a sensor_msgs/Image."""
+def _depth_image(frame: SyntheticFrame, at: Header) -> Any:
     return _image(_millimetres(frame), "16UC1", at)
 
 
-def compressed_color(frame: SyntheticFrame, at: Header, quality: int = JPEG_QUALITY) -> Any:
-    """Give the colour image as image_transport's `compressed` sends it: JPEG, of a quality of 1 to 100."""
+def _compressed_color(frame: SyntheticFrame, at: Header, quality: int = JPEG_QUALITY) -> Any:
+    """The colour image as image_transport's `compressed` sends it: JPEG, of a quality of 1 to 100."""
     data = _encoded(".jpg", frame.color[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, quality])
     return _message("CompressedImage", header=at, format="rgb8; jpeg compressed bgr8", data=data)
 
 
-def compressed_depth(frame: SyntheticFrame, at: Header) -> Any:
-    """Give the depth image as image_transport's `compressedDepth` sends it: PNG behind 12 bytes."""
+def _compressed_depth(frame: SyntheticFrame, at: Header) -> Any:
+    """The depth image as image_transport's `compressedDepth` sends it: PNG behind 12 bytes."""
     png = _encoded(".png", _millimetres(frame), [cv2.IMWRITE_PNG_COMPRESSION, _PNG_EFFORT])
     data = np.concatenate([_DEPTH_HEADER, png])
     return _message("CompressedImage", header=at, format="16UC1; compressedDepth png", data=data)
 
 
-def truth_skeletons(frame: TruthFrame, at: Header) -> SkeletonArray:
-    """Give the truth: joint centres, status MEASURED where the camera sees them and HELD where not.
+def _truth_skeletons(frame: TruthFrame, at: Header) -> SkeletonArray:
+    """The truth: joint centres, status MEASURED where the camera sees them and HELD where not.
 
     The signer has the id 0, companions those that follow.
     """
@@ -186,11 +182,11 @@ class _Topic(NamedTuple):
     message: Any  # from a frame and a header to a message
 
 
-_CAMERA_INFO = _Topic("/camera/color/camera_info", _INFO, lambda frame, at: camera_info(frame.camera, at))
-_TRUTH = _Topic("/truth/skeletons", "teo_sign_msgs/msg/SkeletonArray", truth_skeletons)
+_CAMERA_INFO = _Topic("/camera/color/camera_info", _INFO, lambda frame, at: _camera_info(frame.camera, at))
+_TRUTH = _Topic("/truth/skeletons", "teo_sign_msgs/msg/SkeletonArray", _truth_skeletons)
 _RAW = (
-    _Topic("/camera/color/image_raw", _IMAGE, color_image),
-    _Topic("/camera/aligned_depth_to_color/image_raw", _IMAGE, depth_image),
+    _Topic("/camera/color/image_raw", _IMAGE, _color_image),
+    _Topic("/camera/aligned_depth_to_color/image_raw", _IMAGE, _depth_image),
 )
 _SMALL_COLOR = "/camera/color/image_raw/compressed"
 _SMALL_DEPTH = "/camera/aligned_depth_to_color/image_raw/compressedDepth"
@@ -226,8 +222,8 @@ def write_take(
     if not out.parent.is_dir():
         raise SyntheticError("missing_folder", f"expected a folder for {out.name}, got {out.parent}")
     small = (
-        _Topic(_SMALL_COLOR, _COMPRESSED, partial(compressed_color, quality=quality)),
-        _Topic(_SMALL_DEPTH, _COMPRESSED, compressed_depth),
+        _Topic(_SMALL_COLOR, _COMPRESSED, partial(_compressed_color, quality=quality)),
+        _Topic(_SMALL_DEPTH, _COMPRESSED, _compressed_depth),
     )
     topics = (_TRUTH,) if truth_only else (_CAMERA_INFO, _TRUTH, *(_RAW if raw else small))
     beside = out.parent / f".{out.name}.{os.getpid()}"
@@ -246,7 +242,7 @@ def write_take(
             ]
             for number, frame in enumerate(frames, start=1):
                 time = START + round(frame.stamp * 1e9)
-                at = header(time)
+                at = _header(time)
                 for topic, connection in zip(topics, connections, strict=True):
                     message = topic.message(frame, at)
                     writer.write(connection, time, types.serialize_cdr(message, topic.type))

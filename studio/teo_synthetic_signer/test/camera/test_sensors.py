@@ -9,13 +9,13 @@ import pytest
 
 from teo_synthetic_signer.camera.sensors import SENSORS, DepthModel, Principle, sensor
 
-SIZE = (640, 480)
+SIZE, WALL = (640, 480), (320, 240)
 
 
 def measured(name: str, depth: np.ndarray | float, cosine: float = 1.0) -> np.ndarray:
     """What a sensor gives for a depth image, or for a wall; the cosine says how it faces the sensor."""
     device = sensor(name)
-    camera = device.camera(*SIZE)
+    camera = device.camera(*(WALL if np.ndim(depth) == 0 else SIZE))
     there = np.broadcast_to(np.float32(depth), (camera.height, camera.width)).astype(np.float32)
     model = DepthModel(device, camera, np.random.default_rng(0))
     return model.measure(there, np.full_like(there, cosine))

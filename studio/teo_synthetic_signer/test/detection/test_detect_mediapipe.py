@@ -247,7 +247,7 @@ def test_a_closed_detector_frees_its_networks() -> None:
     gc.collect()
     assert graph() is None
     before = resident()
-    for _ in range(5):
+    for _ in range(3):
         MediaPipeDetector().close()
     assert resident() - before < 125.0  # [MB]; each holds more than 50, and what was freed may stay in use
 
