@@ -38,7 +38,12 @@ _ERRORS = {
 
 
 def measure(sentences: int = 500, every: int = 1) -> list[Figure]:
-    """Figures of the package's table: so many random sentences are planned, and each so manieth entry."""
+    """Figures of the package's table.
+
+    Args:
+        sentences: So many random ones are planned.
+        every: Each so manieth entry is planned and judged.
+    """
     lut = Lut.open(default_lut_directory())
     words = [sign for sign in lut.values() if sign.kind == "lexical"]
     return [

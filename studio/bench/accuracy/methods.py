@@ -62,7 +62,13 @@ def perfect(frame: TakeFrame) -> tuple[Person2D, ...]:
 def ours(
     frames: Sequence[TakeFrame], see: Detections, worsen: Callable[[DepthArray], DepthArray] | None = None
 ) -> list[Estimate]:
-    """The retriever as it is set by default, but that somebody is a person from the first image on."""
+    """The retriever as it is set by default, but that somebody is a person from the first image on.
+
+    Args:
+        frames: The take.
+        see: What the detector sees of each.
+        worsen: What becomes of the depth.
+    """
     detector = "other" if see is perfect else "mediapipe"
     retriever = Retriever(RetrieverParameters(newcomer_images=1, detector=detector))
     estimates = []

@@ -34,7 +34,11 @@ _STOP_WORDS = {
 
 
 def systems(ours: Translator | None = None) -> dict[str, System]:
-    """By name: our model, the paper's, the trivial baseline and a peer; glosses by their `plain_gloss`."""
+    """By name: our model, the paper's, the trivial baseline and a peer; glosses by their `plain_gloss`.
+
+    Args:
+        ours: The shipped translator by default.
+    """
     return {
         "ours": _translating(ours or Translator.load()),
         "paper's": _translating(Translator.load("lstm256")),

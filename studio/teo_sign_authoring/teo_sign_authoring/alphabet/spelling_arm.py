@@ -158,7 +158,12 @@ class ArmFit:
 
 
 def spelling_bounds(chain: ArmKinematics, *, both_sides: bool = False) -> Bounds:
-    """Lower and upper bounds of an arm that spells, or of both its sides [rad]. Shapes (j,)."""
+    """Lower and upper bounds of an arm that spells [rad]. Shapes (j,).
+
+    Args:
+        chain: The arm.
+        both_sides: Whether the left arm must be able to mirror the pose.
+    """
     lower, upper = arm_bounds(chain.humanoid, "both" if both_sides else "right")
     elbow = np.arange(chain.count) == chain.elbow
     if chain.opens > 0.0:

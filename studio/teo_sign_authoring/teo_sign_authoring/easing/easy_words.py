@@ -62,7 +62,10 @@ class Neighbours(NamedTuple):
 def neighbours(humanoid: Humanoid, table: Mapping[str, Sign], knot: int) -> Neighbours:
     """What comes before (knot -1) or after (knot 0) a word, about: words, spelled words and rest.
 
-    Of the table's words and letters some are taken at random; with `knot` they meet the word.
+    Args:
+        humanoid: The robot.
+        table: The table, of whose words and letters some are taken at random.
+        knot: With which knot they meet the word.
     """
     random = np.random.default_rng(0)
     rest = humanoid.ready

@@ -51,7 +51,12 @@ class LinearProgram:
         self._bounds: list[Array] = []
 
     def variable(self, price: float, *, least: float = 0.0) -> int:
-        """Add a variable that is to be small, at a price for each unit; return its index."""
+        """Add a variable that is to be small; return its index.
+
+        Args:
+            price: Of one unit of it.
+            least: The least that it may be.
+        """
         self._prices.append(price)
         self._least.append(least)
         return len(self._prices) - 1

@@ -198,7 +198,12 @@ class ScoreKnots:
     ) -> tuple[tuple[str, ...], Array]:
         """Joints that take part, and their positions at every moment [rad]. Shape (moments, joints).
 
-        Left arms are seen as right ones; there are none where they mirror the right or take no part.
+        Args:
+            hands: Which take part.
+            moments: The postures.
+            rights: The right arm at each.
+            lefts: The left arm at each, seen as a right one; empty where it mirrors the right or takes no
+                part.
         """
         humanoid = self._humanoid
         joints = humanoid.arm("right") + humanoid.hand("right")

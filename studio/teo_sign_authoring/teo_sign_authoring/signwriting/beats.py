@@ -207,9 +207,13 @@ def _same(one: Movement, other: Movement) -> bool:
 def beats_of(
     stances: tuple[Stance, ...], moves: HandMovements, side: Side, *, opposite: bool = False
 ) -> list[Beat]:
-    """The postures of one hand, of its one or two drawings.
+    """The postures of one hand.
 
-    An `opposite` hand begins where the other one turns back: hands that move by turns.
+    Args:
+        stances: Its one or two drawings.
+        moves: What it does.
+        side: Which hand it is.
+        opposite: Whether it begins where the other hand turns back: hands that move by turns.
 
     Raises:
         UnreadableError: "movement" if one turn of the forearm has no end that is drawn.

@@ -136,7 +136,12 @@ class ImportOutcome:
 
 
 def find_jobs(entries: Sequence[DictionaryEntry], names: GlossNames, only: Sequence[str]) -> list[ImportJob]:
-    """Every entry with its gloss; `only` are those wanted, with their variants' numbers, all if empty.
+    """Every entry with its gloss.
+
+    Args:
+        entries: Of the dictionary.
+        names: Gives terms their glosses.
+        only: Glosses that are wanted, with their variants' numbers; all if empty.
 
     Raises:
         LutError: "unknown_sign" if one that is wanted is not there.

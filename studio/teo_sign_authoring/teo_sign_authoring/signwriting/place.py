@@ -107,7 +107,14 @@ def _sided(name: str, out: float, off: str) -> str:
 
 
 def place_on_head(hand: WrittenHand, landmarks: Landmarks, contact: Symbol | None, off: str = "") -> str:
-    """The part of the head that a hand is at, and how far off in words; the landmarks have a head."""
+    """The part of the head that a hand is at.
+
+    Args:
+        hand: The hand.
+        landmarks: With a head.
+        contact: The symbol of the contact, if there is one.
+        off: Displacement from there, in words.
+    """
     assert landmarks.head is not None
     # A hand is drawn beside its place, or over it so that the face stays to be seen.
     point = (hand.symbol.nearest(landmarks.head) + hand.symbol.middle) / 2.0

@@ -65,7 +65,15 @@ def fit_table(
     jobs: int,
     done: Callable[[SignFit], None],
 ) -> list[SignFit]:
-    """Look at signs of a language on a robot, in a table as of `entries`; what has no entry there is made.
+    """Look at signs of a language on a robot.
+
+    Args:
+        language: Code of the sign language.
+        robot: Name of the robot.
+        glosses: Which signs.
+        table: As for `entries`. What has no entry is made to be looked at.
+        jobs: How many processes.
+        done: Called with each sign as it is done.
 
     Returns:
         In the order of `glosses`.

@@ -191,7 +191,7 @@ def transfer_table(
     jobs: int,
     done: Callable[[Transferred], None],
 ) -> list[Transferred]:
-    """Make the signs of a table in the directory `out`; those that are there are made anew if `replace`.
+    """Make the signs of a table.
 
     Returns:
         What became of each, in the order of `glosses`.

@@ -155,10 +155,15 @@ _FINITE = ("ind:", "sub:", "cond", "imp")
 def say_verb(
     words: WordLists, lemma: str, shape: Shape, person: str, clitics: Sequence[str], *, pronominal: bool
 ) -> VerbPhrase:
-    """Inflect a verb: its infinitive without pronoun, for a person, `1s` to `3p`.
+    """Inflect a verb.
 
-    Clitics are object pronouns as if alone: `("lo", "le")`. A pronominal verb takes the reflexive pronoun of
-    its person.
+    Args:
+        words: Inflects.
+        lemma: Infinitive without pronoun.
+        shape: Tense and auxiliaries.
+        person: `1s` to `3p`.
+        clitics: Object pronouns as if alone: `("lo", "le")`.
+        pronominal: Whether it takes a reflexive pronoun of its person.
 
     Raises:
         TranslationError: "no_form" if it has no such form.
@@ -214,7 +219,12 @@ def verb_signs(
     governs them in 16 of 17 (LSE-RADIS). NO stands behind the verb that it denies, so that this one
     comes last there (PAN COMPRAR QUERER NO).
 
-    A verb that is not `said_alone` has no sign, only what it governs has.
+    Args:
+        lemma: Infinitive without pronoun.
+        shape: Tense and auxiliaries.
+        phrase: The verb as said.
+        said_alone: Whether the verb has a sign, and not only what it governs.
+        denied: Whether the clause is negative.
     """
     before: list[Sign] = []
     signs: list[Sign] = []

@@ -95,6 +95,10 @@ def parse_writing(section: Mapping[str, Mapping[str, str]], lists: Mapping[str, 
     A meeting is the word that changes and a pattern of how the next one begins, or `@` and the name of one
     of the grammar's lists.
 
+    Args:
+        section: By name; what is missing is empty.
+        lists: Of the grammar.
+
     Raises:
         TranslationError: "invalid_grammar" naming the entry.
     """

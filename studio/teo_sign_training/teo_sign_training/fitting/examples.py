@@ -262,9 +262,13 @@ def copies(examples: Examples, table: WordTable) -> NDArray[np.bool_]:
 def unsayable(
     examples: Examples, table: WordTable, closed: NDArray[np.bool_], copy: bool
 ) -> NDArray[np.bool_]:
-    """Which pairs hold a gloss that is neither in the closed list nor, if the model can copy, a copy.
+    """Which pairs hold a gloss that is neither in the closed list nor a copy. Shape (n,).
 
-    Shape (n,); `closed` says of each gloss of the table whether it is in the list.
+    Args:
+        examples: The pairs.
+        table: Their words.
+        closed: For each gloss of the table whether it is in the closed list.
+        copy: Whether the model can copy.
     """
     sayable = closed[examples.glosses]
     if copy:

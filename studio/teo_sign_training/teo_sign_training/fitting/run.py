@@ -73,7 +73,14 @@ class TrainedModel:
 def load_training_data(
     corpus: Path, read: Reader, pairs: int | None, seed: int, language: Language
 ) -> TrainingData:
-    """Read a corpus, a folder or a file; at most so many of its training pairs, chosen at random.
+    """Read a corpus.
+
+    Args:
+        corpus: Folder or file.
+        read: How sentences become words.
+        pairs: Most training pairs, chosen at random; all by default.
+        seed: Of that choice.
+        language: Of the corpus.
 
     Raises:
         TranslationError: "invalid_data".
@@ -99,7 +106,16 @@ def train_model(
 ) -> TrainedModel:
     """Train, write the files, load them again and score what was loaded.
 
-    The command goes into the card. The device is an accelerator if there is one by default.
+    Args:
+        name: Of the model's files.
+        network: What is trained.
+        config: How.
+        data: On what.
+        read: How sentences become words.
+        out: Folder of the files.
+        command: Goes into the card.
+        console: Shows the progress.
+        device: Where; an accelerator if there is one by default.
 
     Raises:
         TranslationError: "invalid_config", "invalid_data".

@@ -206,6 +206,15 @@ def save_model(
     weights: Weights,
     card: Mapping[str, Any],
 ) -> None:
-    """Write weights as of `LstmModel`, in half precision, and card; make the directory if it is missing."""
+    """Write weights, in half precision, and card.
+
+    Args:
+        name: Of the model and its two files.
+        directory: Made if it is missing.
+        inputs: Goes into the card, in the order of the weights' columns.
+        outputs: Likewise.
+        weights: As `LstmModel` takes them.
+        card: What else the card says.
+    """
     lists = {"input": list(inputs.tokens), "output": list(outputs.tokens)}
     write_model(name, directory, _SCHEMA, weights, {**card, "vocabulary": lists}, indent=2)

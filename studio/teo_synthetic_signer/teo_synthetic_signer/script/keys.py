@@ -120,9 +120,13 @@ class KeyResolver:
         return way
 
     def arm(self, side: str, key: ArmKey, other: ArmPose | None, *, outside: bool = False) -> ArmPose:
-        """Resolve one arm; `other` is what the other one does, if its place is asked for.
+        """Resolve one arm.
 
-        With `outside` the elbow is kept out of the trunk.
+        Args:
+            side: "R" or "L".
+            key: What it does.
+            other: What the other arm does, if its place is asked for.
+            outside: Keep the elbow out of the trunk.
 
         Raises:
             SyntheticError: A place, point or shape that does not exist.
