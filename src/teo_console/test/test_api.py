@@ -151,7 +151,7 @@ def test_a_film_is_kept_under_a_name_that_leaves_no_folder(api: Api) -> None:
 
 
 # Above the kernel's last number; and our own, which a console before may have had.
-@pytest.mark.parametrize("process", [4194305, os.getpid()])
+@pytest.mark.parametrize("process", [4194305, os.getpid()], ids=["nobody", "our own"])
 def test_recordings_of_a_console_that_was_killed_are_deleted(process: int, tmp_path: Path) -> None:
     left = tmp_path / "cache" / f"recordings-{process}" / "abc" / "film.webm"
     left.parent.mkdir(parents=True)
