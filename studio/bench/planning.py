@@ -152,6 +152,6 @@ def _random_plans(numbers: range) -> _Batch:
 
 def as_driven(plan: Plan) -> Reached:
     """What a driver that executes a plan does to the limits."""
-    path = Trajectory.quintic(*(values.copy() for values in vars(plan.samples).values()))
+    path = Trajectory.quintic(*(values.copy() for values in plan.samples))
     times = np.arange(0.0, plan.duration + 4.0 * _LOOK, _LOOK)
     return judged(path.states(times).positions, _LOOK)
