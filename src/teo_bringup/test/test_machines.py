@@ -30,14 +30,21 @@ import json, time
 import rclpy
 rclpy.init()
 node = rclpy.create_node("visitor")
-found, end = {}, time.monotonic() + 30.0
 names = ("translator", "executor", "teo_sim_driver")
-while len(found) < len(names) and time.monotonic() < end:
-    rclpy.spin_once(node, timeout_sec=0.5)
-    for name in node.get_node_names():
-        if name in names:
-            kinds = (node.get_publisher_names_and_types_by_node, node.get_subscriber_names_and_types_by_node)
-            found[name] = [[topic for topic, _ in kind(name, "/", no_demangle=True)] for kind in kinds]
+found, changed, end = {}, time.monotonic(), time.monotonic() + 30.0
+
+def seen(name):
+    kinds = (node.get_publisher_names_and_types_by_node, node.get_subscriber_names_and_types_by_node)
+    return [[topic for topic, _ in kind(name, "/", no_demangle=True)] for kind in kinds]
+
+# A node is known before what it has open is: until all have something, and nothing is new for a second.
+while time.monotonic() < end:
+    rclpy.spin_once(node, timeout_sec=0.1)
+    now = {name: seen(name) for name in node.get_node_names() if name in names}
+    if now != found:
+        found, changed = now, time.monotonic()
+    elif len(found) == len(names) and all(map(all, found.values())) and time.monotonic() > changed + 1.0:
+        break
 print("graph", json.dumps(found), flush=True)
 """
 
