@@ -124,6 +124,10 @@ def test_a_sign_is_found_by_its_word_and_handshape_and_a_text_says_what_to_recor
     numbers = [int(number) for number in page.locator(".words button").all_inner_texts()]
     assert numbers == sorted(numbers)
     page.select_option("#search-kind", "")
+    expect(page.locator(".words button").first).to_have_text("0")
+    page.select_option("#search-order", "use")
+    expect(page.locator(".words button").first).to_have_text("YO")  # whoever speaks speaks of himself
+    page.select_option("#search-order", "alphabet")
     page.select_option("#search-topic", "vehicle")
     page.fill("#search-word", "cóche")  # whatever the accents
     page.select_option("#search-hand", "A")

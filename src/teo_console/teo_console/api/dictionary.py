@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -22,6 +23,8 @@ _TEXT_LENGTH = 5000
 _SIGN_WRITING = ("signs.json", "drawings.svg")
 # Lists of words whose third column says what they are about.
 _CLASSIFIED = ("nouns.tsv", "adjectives.tsv")
+# Sentences with the signs of each, `GLOSS(words)` with a slash between.
+_SENTENCES = "written_pairs.tsv"
 _FILM_NAME = re.compile(r"[0-9a-f]{64}\.mp4")
 
 
@@ -35,9 +38,10 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
 
     async def signs(_: web.Request) -> Any:
         table = workbench.table
-        topics = topics_of(load_language(table.commands.language))
+        language = load_language(table.commands.language)
+        topics, uses = topics_of(language), uses_of(language)
         return [
-            {**msgspec.structs.asdict(sign), "topics": topics.get(sign.gloss, ())}
+            {**msgspec.structs.asdict(sign), "topics": topics.get(sign.gloss, ()), "uses": uses[sign.gloss]}
             for sign in (await table.signs.signs()).values()
         ]
 
@@ -83,6 +87,14 @@ def topics_of(language: Language) -> dict[str, tuple[str, ...]]:
         for lemma, _, classes, *_ in (line.split("\t") for line in lines if line and line[0] != "#"):
             topics[gloss_key(lemma)] = (*topics.get(gloss_key(lemma), ()), *classes.split(","))
     return topics
+
+
+def uses_of(language: Language) -> Counter[str]:
+    """How often each sign is made in the language's sentences that people would say, by gloss."""
+    path = language.text / _SENTENCES
+    lines = path.read_text("utf-8").splitlines() if path.is_file() else []
+    pairs = (line.split("\t") for line in lines if line and line[0] != "#")
+    return Counter(gloss_key(said.partition("(")[0]) for _, signs in pairs for said in signs.split("/"))
 
 
 def sign_writing_routes(folder: Path) -> list[web.RouteDef]:

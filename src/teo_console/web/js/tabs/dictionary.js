@@ -40,24 +40,28 @@ function search(context, signs, show) {
   const topic = select("search-topic", [["", t("dictionary.any")], ...topics.sort(([, a], [, b]) => compare(a, b))]);
   const shape = handshape(context, signs);
   const kind = select("search-kind", [["", t("dictionary.any")], ...["lexical", "letter", "number"].map((name) => [name, t(`kind.${name}`)])]);
+  // A language without sentences says nothing of how often its signs are made.
+  const orders = signs.some(({ uses }) => uses > 0) ? ["alphabet", "use"] : ["alphabet"];
+  const order = select("search-order", orders.map((name) => [name, t(`dictionary.order.${name}`)]));
   const count = h("p", { role: "status", class: "faint" });
   const list = h("ul", { class: "words", "aria-label": t("dictionary.results") });
   function find() {
     const wanted = plain(word.value);
     const found = signs.filter((sign) => plain(sign.gloss).includes(wanted) && (!hand.value || sign.handshapes.includes(hand.value)) && (!topic.value || sign.topics.includes(topic.value)) && (!standing.value || sign.standing === standing.value) && (!kind.value || sign.kind === kind.value));
+    if (order.value === "use") found.sort((a, b) => b.uses - a.uses);
     found.sort((a, b) => plain(b.gloss).startsWith(wanted) - plain(a.gloss).startsWith(wanted));
     const shown = found.slice(0, MOST_SHOWN);
     const more = found.length - shown.length;
     count.textContent = t("dictionary.found", { count: found.length }) + (more > 0 ? ` ${t("dictionary.more", { more })}` : "");
     list.replaceChildren(...shown.map((sign) => h("li", {}, h("button", { type: "button", dataset: { gloss: sign.gloss }, on: { click: () => show(sign) } }, sign.gloss.replaceAll("_", " ")))));
   }
-  for (const each of [word, topic, hand, standing, kind]) each.addEventListener("input", find);
+  for (const each of [word, topic, hand, standing, kind, order]) each.addEventListener("input", find);
   hand.addEventListener("input", () => shape.show(hand.value));
   find();
   const element = h(
     "section", { class: "card stack", "aria-labelledby": "search-title" },
     h("h2", { id: "search-title" }, t("dictionary.search")),
-    h("div", { class: "fields" }, field(t("dictionary.word"), word), field(t("dictionary.topic"), topic), field(t("dictionary.handshape"), hand), field(t("dictionary.standing"), standing), field(t("dictionary.kind"), kind)),
+    h("div", { class: "fields" }, field(t("dictionary.word"), word), field(t("dictionary.topic"), topic), field(t("dictionary.handshape"), hand), field(t("dictionary.standing"), standing), field(t("dictionary.kind"), kind), field(t("dictionary.order"), order)),
     shape.element, count, list,
   );
   return { element, close: shape.close };
