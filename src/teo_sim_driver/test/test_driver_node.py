@@ -217,11 +217,18 @@ def test_messages_and_goals_of_many_points_do_not_stop_the_joint_states(context,
             assert time.monotonic() < deadline, "it did not happen in time"
             executor.spin_once(timeout_sec=0.1)
 
+    def longest_gap():
+        stamps = [state.header.stamp.sec + state.header.stamp.nanosec * 1e-9 for state in heard]
+        return np.diff(stamps).max()
+
     try:
         until(lambda: heard and refusals and commands.get_subscription_count())
+        heard.clear()
+        until(lambda: len(heard) > 200)
+        usual = 3.0 * longest_gap()  # 0.05 s on a quiet machine; a busy one is late by itself
         message = one_way(duration=2.0, angle=-0.2)
         first = message.points[0]
-        message.points = [first] * 10_000
+        message.points = [first] * 20_000
         data = serialize_message(message)
         begin = time.monotonic()
         deserialize_message(data, JointTrajectory)
@@ -232,9 +239,8 @@ def test_messages_and_goals_of_many_points_do_not_stop_the_joint_states(context,
         until(lambda: refusals[-1].refused == 1)
         assert refusals[-1].refusal_code == "times_not_increasing"
         until(lambda: len(heard) > 20)
-        stamps = [state.header.stamp.sec + state.header.stamp.nanosec * 1e-9 for state in heard]
         # To make objects of the message alone took this long on this machine now.
-        assert np.diff(stamps).max() < max(0.5 * as_objects, 0.05)
+        assert longest_gap() < max(0.5 * as_objects, 0.05, usual)
         # The same as a goal; its points alone, as objects, take longer than this.
         goals = ActionClient(client, FollowJointTrajectory, "follow_joint_trajectory")
         until(goals.server_is_ready)
@@ -243,8 +249,7 @@ def test_messages_and_goals_of_many_points_do_not_stop_the_joint_states(context,
         until(lambda: refusals[-1].refused == 2)
         until(lambda: len(heard) > 20)
         until(answer.done)
-        stamps = [state.header.stamp.sec + state.header.stamp.nanosec * 1e-9 for state in heard]
-        assert np.diff(stamps).max() < max(as_objects, 0.1)
+        assert longest_gap() < max(as_objects, 0.1, usual)
     finally:
         driver.send_signal(signal.SIGINT)
         driver.wait()
