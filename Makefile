@@ -37,14 +37,13 @@ demo: $(SETUP) ## sign TEXT="...": leaves the bag, a video and a film strip in O
 run: $(SETUP) ## start translator, executor and driver, until Ctrl-C; VIEW=1 with the page
 	@$(ENV) exec ros2 run teo_bringup up --robot "$$ROBOT" --language "$$LANGUAGE" $(if $(VIEW),translator executor driver console)
 
-# What meets others over DDS waits more than it computes: three at a time are quicker on two cores.
 test: setup ## the tests, without the slow ones: first what keeps no time with others, then what meets them over DDS
 	@$(ENV) python -m pytest -m "not dds and not commands and not slow" --numprocesses 2 --dist loadfile
-	@$(ENV) python -m pytest -m "dds and not commands and not slow" --numprocesses 3 --dist loadfile
+	@$(ENV) python -m pytest -m "dds and not commands and not slow" --numprocesses 2 --dist loadfile
 
 slow: setup ## the tests that take long
 	@$(ENV) python -m pytest -m "slow and not dds and not commands" --numprocesses 2 --dist worksteal
-	@$(ENV) python -m pytest -m "slow and dds and not commands" --numprocesses 3 --dist loadfile
+	@$(ENV) python -m pytest -m "slow and dds and not commands" --numprocesses 2 --dist loadfile
 
 commands: setup ## the commands of every page, as they stand there
 	@$(ENV) python -m pytest test/test_readme_commands.py -m commands --numprocesses 2 --maxschedchunk 1
