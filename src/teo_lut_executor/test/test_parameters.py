@@ -50,6 +50,14 @@ def assert_signs(planner: Planner) -> None:
         assert 0.5 < plan.stretch < 100.0
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "value"), [(name, end) for name, ends in RANGES.items() if name not in GATES for end in ends]
+)
+def test_each_parameter_at_both_ends_of_its_range_signs(planner: NewPlanner, name: str, value: float) -> None:
+    assert_signs(planner({name: value}))
+
+
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("end", [0, 1])
 def test_any_ends_of_the_ranges_of_parameters_sign(planner: NewPlanner, seed: int, end: int) -> None:
@@ -59,7 +67,7 @@ def test_any_ends_of_the_ranges_of_parameters_sign(planner: NewPlanner, seed: in
     assert_signs(planner({name: value for name, value in chosen.items() if name not in GATES}))
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(6))
 def test_any_parameters_within_their_ranges_sign(planner: NewPlanner, seed: int) -> None:
     dice = random.Random(seed)
     assert_signs(planner({name: dice.uniform(*ends) for name, ends in RANGES.items() if name not in GATES}))

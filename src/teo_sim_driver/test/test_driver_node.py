@@ -223,9 +223,6 @@ def test_messages_and_goals_of_many_points_do_not_stop_the_joint_states(context,
 
     try:
         until(lambda: heard and refusals and commands.get_subscription_count())
-        heard.clear()
-        until(lambda: len(heard) > 200)
-        usual = 3.0 * longest_gap()  # 0.05 s on a quiet machine; a busy one is late by itself
         message = one_way(duration=2.0, angle=-0.2)
         first = message.points[0]
         message.points = [first] * 20_000
@@ -240,7 +237,7 @@ def test_messages_and_goals_of_many_points_do_not_stop_the_joint_states(context,
         assert refusals[-1].refusal_code == "times_not_increasing"
         until(lambda: len(heard) > 20)
         # To make objects of the message alone took this long on this machine now.
-        assert longest_gap() < max(0.5 * as_objects, 0.05, usual)
+        assert longest_gap() < max(0.5 * as_objects, 0.05)
         # The same as a goal; its points alone, as objects, take longer than this.
         goals = ActionClient(client, FollowJointTrajectory, "follow_joint_trajectory")
         until(goals.server_is_ready)
@@ -249,7 +246,7 @@ def test_messages_and_goals_of_many_points_do_not_stop_the_joint_states(context,
         until(lambda: refusals[-1].refused == 2)
         until(lambda: len(heard) > 20)
         until(answer.done)
-        assert longest_gap() < max(as_objects, 0.1, usual)
+        assert longest_gap() < max(as_objects, 0.1)
     finally:
         driver.send_signal(signal.SIGINT)
         driver.wait()

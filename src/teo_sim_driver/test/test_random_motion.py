@@ -121,7 +121,7 @@ class Watch:
 
 
 @pytest.mark.slow
-@settings(max_examples=40)
+@settings(max_examples=80)
 @given(seed=st.integers(0, 2**32), tightness=st.floats(0.6, 1.0))
 def test_what_is_within_the_limits_is_accepted_and_executed_within_them(
     new_follower, limits, home, seed, tightness

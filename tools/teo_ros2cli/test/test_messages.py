@@ -69,7 +69,7 @@ def tree_of(cls: Any) -> st.SearchStrategy[dict[str, Any]]:
     )
 
 
-@settings(max_examples=120)
+@settings(max_examples=150)
 @given(st.data())
 def test_any_message_survives_printing_and_reading(data: st.DataObject) -> None:
     cls = data.draw(st.sampled_from(CLASSES))

@@ -97,9 +97,9 @@ def test_simplemma_leads_nearly_every_form_to_the_same_infinitive() -> None:
     # simplemma has one lemma a form: of ambiguous ones (vino, casa) another word; of participles, adjectives.
     tags = [tag for tag in VERB_TAGS if ":part" not in tag and not tag.startswith("V:imp")]
     total = agreed = 0
-    for verb in lexicon.verbs(TEXT)[::30]:
+    for verb in lexicon.verbs(TEXT)[::10]:
         for tag in tags:
             total += 1
             agreed += simplemma.lemmatize(CONJUGATIONS.forms(verb, tag)[0], lang="es") == verb
-    assert total > 1500
+    assert total > 5000
     assert agreed / total > 0.95

@@ -68,7 +68,7 @@ def test_what_the_grammar_translates_loses_no_word(language: str, share: float) 
     text = load_language(language).text
     words = Morphology.load(text)
     completeness = Completeness.load(text)
-    pairs = list(Generator.load(text / "grammar", words).pairs(500, seed=7))
+    pairs = list(Generator.load(text / "grammar", words).pairs(1500, seed=7))
     lossy = []
     for pair in pairs:
         said = [

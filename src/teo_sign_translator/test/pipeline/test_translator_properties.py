@@ -11,7 +11,7 @@ from itertools import pairwise
 from random import Random
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from loaded import translator
 from word_by_word_model import translator_with
@@ -106,6 +106,7 @@ LATIN = st.text(st.characters(max_codepoint=0x17F, exclude_categories=["Cs"]), m
 
 @ALL
 @given(st.text() | LATIN)
+@settings(max_examples=200)
 def test_any_text_gives_an_answer_or_a_reason(name: str, text: str) -> None:
     try:
         translation = translating(name).translate(text)
@@ -119,6 +120,7 @@ def test_any_text_gives_an_answer_or_a_reason(name: str, text: str) -> None:
 
 @ALL
 @given(st.lists(st.tuples(TYPED, SEPARATORS), min_size=1, max_size=25))
+@settings(max_examples=150)
 def test_any_spanish_text_is_translated_and_no_word_is_lost(name: str, parts: list[tuple[str, str]]) -> None:
     text = "".join(word + separator for word, separator in parts)
     translation = translating(name).translate("Hola " + text)

@@ -36,7 +36,7 @@ def _common_words() -> list[str]:
     forms = [form.written for word in lexicon.nouns(TEXT) for form in lexicon.nominal_forms(word)]
     forms += [form.written for word in lexicon.adjectives(TEXT) for form in lexicon.nominal_forms(word)]
     forms += [morphology().inflect(verb, "V:ind:pres:3s") for verb in lexicon.verbs(TEXT)]
-    return [form for form in forms if form not in given and " " not in form][::100]
+    return [form for form in forms if form not in given and " " not in form][::20]
 
 
 def _found(sentence: str, typed: str) -> SourceWord:

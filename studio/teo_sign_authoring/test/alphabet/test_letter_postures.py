@@ -276,7 +276,7 @@ def placed(robot: Robot, arm: Array) -> Array:
     return robot.placement(robot.configuration(pose), "right_palm")
 
 
-@settings(max_examples=10)
+@settings(max_examples=25)
 @given(share=st.lists(st.floats(0.1, 0.9), min_size=6, max_size=6))
 def test_an_arm_is_within_its_bounds_and_as_far_off_as_it_says(share: list[float]) -> None:
     robot = Robot.load()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from teo_sign_training.corpus import SPLITS, Pair, read_pairs, write_pairs
@@ -26,7 +26,6 @@ def some_pairs(draw):
     )
 
 
-@settings(max_examples=30)
 @given(st.lists(some_pairs(), max_size=5))
 def test_what_is_written_is_read_again(tmp_path_factory, pairs):
     path = tmp_path_factory.mktemp("corpus") / "pairs.tsv"
