@@ -16,6 +16,7 @@ from teo_lut_executor.execution.interface import (
     Outcome,
     PlanWanted,
     QueueSettings,
+    ReturnWanted,
 )
 from teo_names import COMMANDED_JOINTS
 from teo_signs.sign import Sign
@@ -154,6 +155,27 @@ def test_a_sentence_canceled_on_its_way_to_rest_just_ends(world: World) -> None:
     world.run_until(lambda: bool(world.finished()))
     assert len(world.sent) == 1 and world.stops == []
     assert world.finished() == [(ticket, Outcome.CANCELED)]
+
+
+@pytest.mark.parametrize("signed_for", [0.4, 0.8, 1.5])
+@pytest.mark.parametrize("delay", [0.0, 0.06, 0.1, 0.15, 0.2, 0.3])
+@pytest.mark.parametrize("link", [0.0, 0.1, 0.2, 0.3, 0.4])
+def test_the_way_to_rest_begins_where_the_robot_stands_however_late_messages_are(
+    world: World, link: float, delay: float, signed_for: float
+) -> None:
+    world.link = link
+    ticket = world.sign("TÚ A")
+    world.run(0.5 + signed_for)
+    world.delay = delay
+    world.cancel(ticket)
+    wanted = 0
+    while not world.finished():
+        world.tick()
+        begun = [event for event in world.events if isinstance(event, ReturnWanted)][wanted:]
+        wanted += len(begun)
+        for event in begun:
+            assert not world.velocities.any()
+            np.testing.assert_allclose(event.start.position, world.positions, atol=1e-9)
 
 
 def test_a_stop_that_the_driver_does_not_take_is_sent_again(world: World) -> None:

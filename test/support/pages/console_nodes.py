@@ -23,6 +23,8 @@ from teo_bringup.graph import NODES, Graph, GraphError, executable_of
 START_TIMEOUT = 120.0  # [s] for four processes on a loaded machine: four seconds on an idle one
 # For a robot to be stopped, re-armed and back at rest [s]: seconds on an idle machine.
 SETTLED_WITHIN = 60.0
+# A driver may wait for a processor for longer than the half second in which a robot is taken for lost.
+PATIENT = ("--ros-args", "-p", "joint_state_timeout:=3.0")
 ORDERS = ("clear_queue", "stop", "rearm")
 
 
@@ -58,7 +60,7 @@ class ConsoleNodes:
         self.graph = self._running.enter_context(Graph(folder))
         with pytest.MonkeyPatch.context() as patch:
             patch.setenv("XDG_DATA_HOME", str(folder / "data"))
-            self.graph.start_nodes()
+            self.graph.start_nodes(arguments=PATIENT)
             self.graph.start("console", str(executable_of(*NODES["console"])), "--ros-args", "-p", "port:=0")
         deadline = time.monotonic() + START_TIMEOUT
         while not self.graph.is_ready():

@@ -31,7 +31,8 @@ _MOST_STOPS = 5
 # Time after the end of a stop at which the next is sent [s].
 _STOP_PATIENCE = 0.1
 
-# The robot stands when joint states have shown no movement for this long [s]: ten of them.
+# The robot stands when joint states have shown no movement for this long [s]: ten of them, and as late as a
+# stop may come on a busy machine.
 _STANDS = 0.1
 
 
@@ -89,9 +90,9 @@ class Halt:
     @property
     def stands(self) -> bool:
         """Whether the robot has come to a standstill."""
-        situation = self._situation
-        still = situation.robot.still_for(situation.now) >= _STANDS and not situation.is_stale
-        return still and situation.now >= self._due and not self._owed
+        # By joint states of after the stop's end: earlier ones may show it before the stop has reached it.
+        still = self._situation.robot.still_since(self._due) >= _STANDS
+        return still and not self._situation.is_stale and not self._owed
 
     @property
     def is_overdue(self) -> bool:

@@ -88,9 +88,9 @@ class RobotState:
         """Whether no joint moves."""
         return not self._velocities.any()
 
-    def still_for(self, now: float) -> float:
-        """How long no joint has moved [s]; minus infinity if one does."""
-        return float(now - self._still_since)
+    def still_since(self, then: float) -> float:
+        """How long no joint was seen to move from a time on [s]; less than nothing if one was seen since."""
+        return self.oldest - max(self._still_since, then)
 
     def shift_clock(self, by: float) -> None:
         """Follow a clock that was set by so much [s]."""
