@@ -90,6 +90,28 @@ def test_a_robot_that_stops_following_is_stopped_and_the_sentence_signed_again(w
     assert not again.start.velocity.any(), "planned from a standstill"
 
 
+def test_a_robot_that_is_late_on_its_path_follows_it(world: World) -> None:
+    world.lag = 0.45  # a driver that waits for a processor
+    ticket = world.sign("TÚ A")
+    world.run_until(lambda: bool(world.finished()))
+    assert world.finished() == [(ticket, Outcome.SUCCESS)]
+    assert not any(status.code for status in world.statuses())
+
+
+def test_a_continuation_refused_at_the_second_attempt_does_not_end_the_sentence(world: World) -> None:
+    world.opening_time, world.planning_time = 0.4, 1.5  # the first attempt goes on from a standstill
+    ticket = world.sign("TÚ A")
+    world.run_until(lambda: len(world.sent) == 2)
+    world.follows = lambda _: False
+    world._motions = []
+    world.run_until(lambda: any(status.code == "not_followed" for status in world.statuses()))
+    world.follows, world.planning_time = lambda _: True, 0.1
+    world.accepts = lambda motion: motion.start is None  # continuations come too late
+    world.run_until(lambda: bool(world.finished()))
+    assert world.refused
+    assert world.finished() == [(ticket, Outcome.SUCCESS)]
+
+
 def test_a_silent_robot_is_told_within_a_second_and_the_sentence_signed_when_it_is_back(world: World) -> None:
     first, second = world.sign("TÚ", utterance_id="first"), world.sign("A")
     world.run(2.0)

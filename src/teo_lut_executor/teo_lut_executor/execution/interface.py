@@ -43,7 +43,7 @@ class QueueSettings:
     # quarter of a second. A start and an end at rest look the same if it never moved: this tells.
     path_tolerance: float = 0.2
 
-    # For how long it may be farther [s].
+    # For how long it may be farther, and how late on its path it may be [s].
     path_time: float = 0.5
 
     # Time for which the hands stay still between two sentences that are joined, beyond the hold of the last

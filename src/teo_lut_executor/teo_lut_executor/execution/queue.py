@@ -210,9 +210,6 @@ class ExecutionQueue:
             return self._react(failure_event(work, Event.MOTION_REFUSED, error))
         if work.continuation is None or work.continuation.number != number:
             return happen(work, Event.STOP_REFUSED, number)
-        if self.state is State.OPENING and work.current is not None and not work.current.joins:
-            work.continuation = None  # it was refused at its second try
-            return happen(work, Event.MOTION_REFUSED, error)
         return happen(work, Event.CONTINUATION_REFUSED)
 
     def opened(self, number: int, plan: Plan, now: float) -> list[Effect]:

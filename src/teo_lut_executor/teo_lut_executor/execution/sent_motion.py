@@ -120,9 +120,10 @@ class SentMotion:
     def _path_problem(self, robot: RobotState, seen: float) -> PlanError | None:
         if seen < 0.0 or (self.awaited and self.elapsed < _DEPARTURE):
             return None  # nothing was heard of the robot since
-        # Of the samples the nearest: they are 0.02 s apart, in which no joint moves a tenth of the tolerance.
-        nearest = int(np.searchsorted(self.plan.times, seen))
-        distance, joint = robot.farthest(self.plan.positions[nearest])
+        # A driver that waits for a processor is late on its path, and follows it.
+        late = seen - self.settings.path_time
+        first, last = np.searchsorted(self.plan.times, (late, seen))
+        distance, joint = min(robot.farthest(where) for where in self.plan.positions[first : last + 1])
         self._was_away = distance > self.settings.path_tolerance
         if not self._was_away:
             self._away_for = 0.0

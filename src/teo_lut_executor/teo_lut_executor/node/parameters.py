@@ -156,7 +156,7 @@ PARAMETERS = (
         choices=tuple(Preemption),
         description="What a new text does: wait in the queue, or replace every earlier one.",
     ),
-    _row("path_time", 0.0, 10.0, "For how long it may be farther [s]."),
+    _row("path_time", 0.0, 10.0, "For how long it may be farther, and how late on its path it may be [s]."),
 )
 
 
