@@ -11,9 +11,10 @@ beside it makes it a name.
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from itertools import islice
+from itertools import islice, pairwise
 
 from teo_common.text_folding import strip_marks
 from teo_sign_translator.morphology import MAX_READINGS, Morphology, Reading
@@ -134,11 +135,21 @@ def words_of_clauses(clauses: Sequence[Clause], morphology: Morphology) -> tuple
     for place in openings:
         readings = _opening_name(_all_readings(words[place], morphology), words[place + 1 :], special)
         words[place] = replace(words[place], readings=readings)
-    words = _with_degrees(words, special, morphology)
+    words = _with_degrees(_as_prices_are_said(words), special, morphology)
     words = _with_phrases(words, morphology) if morphology.phrases else words
     return tuple(
         told_by_neighbours(_in_their_clause(_with_whole_names(words, special), morphology), morphology)
     )
+
+
+def _as_prices_are_said(words: Sequence[SourceWord]) -> list[SourceWord]:
+    """The words, the symbol of a currency behind its number: $35 is said "thirty-five dollars"."""
+    result = list(words)
+    for place, (word, following) in enumerate(pairwise(words)):
+        symbol = len(word.text) == 1 and unicodedata.category(word.text) == "Sc"
+        if symbol and following.readings[0].tag == "NUM":
+            result[place : place + 2] = [following, word]
+    return result
 
 
 def _with_degrees(
