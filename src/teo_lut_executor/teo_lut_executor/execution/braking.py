@@ -97,8 +97,9 @@ class Halt:
     @property
     def is_overdue(self) -> bool:
         """Whether the robot should stand, and is to be told again."""
-        now = self._situation.now
-        return now > self._due + _STOP_PATIENCE or (self._owed and now >= self._next)
+        # Seen after the stop's end, like a standstill: each stop moves a robot that stands already.
+        moves = self._situation.robot.oldest > self._due + _STOP_PATIENCE
+        return moves or (self._owed and self._situation.now >= self._next)
 
 
 # Points of a motion before the seam that depend on nothing before the motion: see `continued`.
