@@ -29,7 +29,7 @@ PARTS = re.compile(r"(?<=[.?!…])\s+|[;\"“”«»]")
 # (MOST_ORDERS), in which something may go unsaid, and ASL's pronouns have two forms of one sign; the others
 # were written more generously.
 MOST_ORDERS = 6
-MOST_ACCEPTED = {"blind": 264, "known": 200, "ase/blind": 14, "ase/known": 200, "ase/published": 200}
+MOST_ACCEPTED = {"blind": 264, "known": 200, "ase/blind": 22, "ase/known": 200, "ase/published": 200}
 # Known sentences that must come out as accepted, by set and language. The shipped translators have 1044 of
 # the 1429, 262 of the 344 and 48 of the 99: a mend of one may cost another one or two; more is a loss.
 FLOORS = {("known", "ssp"): 1036, ("ase/known", "ase"): 259, ("ase/published", "ase"): 46}

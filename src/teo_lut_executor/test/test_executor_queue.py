@@ -198,7 +198,7 @@ def test_the_way_to_rest_begins_where_the_robot_stands_however_late_messages_are
         for event in begun:
             assert not world.velocities.any()
             np.testing.assert_allclose(event.start.position, world.positions, atol=1e-9)
-    # Motions that take longer come too late to continue another: then one from where the robot is seen, twice.
+    # What comes late cannot continue another motion: then it is told to stop from where it is seen, twice.
     assert len(world.stops) <= (2 if delay else 0)
 
 
