@@ -29,11 +29,12 @@ from teo_console.sentences import PathReport, Sentences, SigningReport
 ROLES: tuple[NodeRole, ...] = get_args(NodeRole)
 
 # Silence after which a node counts as silent [s]. Diagnostics come once a second: two may be missed, half a
-# second is for a loaded machine. Joint states come a hundred times a second; the executor waits as long.
+# second is for a loaded machine. Joint states come a hundred times a second; a busy machine withholds them for
+# half a second, which is over before anybody has read of it.
 _SILENCE: dict[NodeRole, float] = {
     "translator": 2.5 * DIAGNOSTICS_PERIOD,
     "executor": 2.5 * DIAGNOSTICS_PERIOD,
-    "driver": 0.5,
+    "driver": 1.0,
 }
 
 
@@ -54,7 +55,7 @@ class _Heard:
         state: NodeState
         if not self.present:
             state = "missing"
-        elif self.at is None or quiet > _SILENCE[role]:
+        elif self.at is None or quiet >= _SILENCE[role]:
             state = "silent"
         elif self.level is not Level.OK:
             state = "unwell"
