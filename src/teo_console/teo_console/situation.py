@@ -29,8 +29,8 @@ from teo_console.sentences import PathReport, Sentences, SigningReport
 ROLES: tuple[NodeRole, ...] = get_args(NodeRole)
 
 # Silence after which a node counts as silent [s]. Diagnostics come once a second: two may be missed, half a
-# second is for a loaded machine. Joint states come a hundred times a second; a busy machine withholds them for
-# half a second, which is over before anybody has read of it.
+# second is for a loaded machine. Joint states come a hundred times a second; a busy machine withholds them
+# for half a second, which is over before anybody has read of it.
 _SILENCE: dict[NodeRole, float] = {
     "translator": 2.5 * DIAGNOSTICS_PERIOD,
     "executor": 2.5 * DIAGNOSTICS_PERIOD,
