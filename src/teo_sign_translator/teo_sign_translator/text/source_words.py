@@ -14,7 +14,7 @@ import re
 import unicodedata
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from itertools import islice, pairwise
+from itertools import islice
 
 from teo_common.text_folding import strip_marks
 from teo_sign_translator.morphology import MAX_READINGS, Morphology, Reading
@@ -144,12 +144,18 @@ def words_of_clauses(clauses: Sequence[Clause], morphology: Morphology) -> tuple
 
 def _as_prices_are_said(words: Sequence[SourceWord]) -> list[SourceWord]:
     """The words, the symbol of a currency behind its number: $35 is said "thirty-five dollars"."""
-    result = list(words)
-    for place, (word, following) in enumerate(pairwise(words)):
-        symbol = len(word.text) == 1 and unicodedata.category(word.text) == "Sc"
-        if symbol and following.readings[0].tag == "NUM":
-            result[place : place + 2] = [following, word]
+    result: list[SourceWord] = []
+    for word in words:
+        result.append(word)
+        before, symbol = ([None, None, *result])[-3:-1]
+        alone = before is None or before.readings[0].tag != "NUM"
+        if symbol is not None and _is_currency(symbol) and alone and word.readings[0].tag == "NUM":
+            result[-2:] = [word, symbol]
     return result
+
+
+def _is_currency(word: SourceWord) -> bool:
+    return len(word.text) == 1 and unicodedata.category(word.text) == "Sc"
 
 
 def _with_degrees(

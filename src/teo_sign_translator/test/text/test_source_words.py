@@ -24,7 +24,7 @@ def _forms(sentence: str) -> list[str]:
         ("Hola,  Ana: ¿vienes?", "hola|,|ana|,|vienes|?"),
         ("Tengo treinta y uno; tú 31.", "tengo|31|,|tú|31|."),
         ("Cuesta 1.000 € o 3,5 $", "cuesta|1000|euros|o|3,5|dólares"),
-        ("Cuesta $35 o €2,50", "cuesta|35|dólares|o|2,50|euros"),
+        ("Cuesta $35 o €2,50, 5 € 2 veces", "cuesta|35|dólares|o|2,50|euros|,|5|euros|2|veces"),
         ("Mi teléfono es 600 257 707.", "mi|teléfono|es|600257707|."),
         ("A las 15.30 h o 9h05", "a|las|15:30|horas|o|9:05"),
         ("el 25/12 y el 1/2", "el|25|diciembre|y|el|1|febrero"),
