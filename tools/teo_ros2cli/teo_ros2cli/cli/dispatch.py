@@ -8,11 +8,15 @@ import argparse
 import importlib
 import signal
 import sys
+import time
 from collections.abc import Mapping, Sequence
 from types import ModuleType
 from typing import NamedTuple
 
 from teo_ros2cli.errors import Ros2CliError
+
+# Of a SIGINT rclpy's handler ends the context first; Python's KeyboardInterrupt comes within this time [s].
+_INTERRUPTED = 0.1
 
 
 class Entry(NamedTuple):
@@ -99,5 +103,6 @@ def _call(program: str, entry: Entry, words: Sequence[str]) -> int:
     except Exception as error:
         # Loading rclpy costs a tenth of a second: its exception is told by its name.
         if type(error).__name__ == "ExternalShutdownException":
+            time.sleep(_INTERRUPTED)
             return 128 + int(signal.SIGTERM)
         raise
