@@ -40,6 +40,7 @@ class CompletenessWords:
         courtesy: Words of a courtesy, in order; empty for none.
         courtesy_gloss: The gloss of all of them.
         of_things: Verbs whose third person is nobody: a pointing gloss is not said for them.
+        unsaid: Glosses of words that the sign language leaves out, however often the model says them.
     """
 
     goes: str
@@ -47,6 +48,7 @@ class CompletenessWords:
     courtesy: tuple[str, ...]
     courtesy_gloss: str
     of_things: frozenset[str]
+    unsaid: frozenset[str]
 
 
 @dataclass(frozen=True)
@@ -250,7 +252,14 @@ class Completeness:
             words: Of the sentence; one at least is no mark.
             hypotheses: Its translations, best first; at least one.
         """
-        candidates = [_each_word_once(words, hypothesis.glosses) for hypothesis in hypotheses]
+        candidates = [
+            tuple(
+                each
+                for each in _each_word_once(words, hypothesis.glosses)
+                if each.gloss not in self.words.unsaid
+            )
+            for hypothesis in hypotheses
+        ]
         best = min(candidates, key=lambda glosses: len(self.left_out(words, glosses)))
         missing = {place: self._meant(words[place]) for place in self.left_out(words, best)}
         if not best and not missing:
@@ -382,7 +391,7 @@ def _each_word_once(words: Sequence[SourceWord], glosses: Sequence[OutputGloss])
         if not any(map(str.isalnum, gloss.gloss)):
             continue
         again = bool(result) and result[-1].gloss == gloss.gloss
-        if (gloss.copied and own and taken.issuperset(own)) or (not own and again):
+        if taken.issuperset(own) and (again or (gloss.copied and own)):
             continue
         if own:
             taken.add(_likeliest(own, gloss, taken))

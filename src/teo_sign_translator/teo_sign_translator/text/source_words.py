@@ -189,7 +189,9 @@ def _in_their_clause(words: Sequence[SourceWord], morphology: Morphology) -> lis
         out = set()
         if "WH" in tags and not _may_relate(words, place):
             out.add("PRON:rel")
-        if "AUX" in tags and not _before_participle(words[place + 1 :], morphology):
+        asks = not place or words[place - 1].readings[0].tag == "WH"
+        inside = (*_INSIDE_PERFECT, "DET:indef") if asks else _INSIDE_PERFECT  # not "she has a broken arm"
+        if "AUX" in tags and not _before_participle(words[place + 1 :], inside, morphology):
             out.add("AUX")
         if out & tags:
             kept = tuple(each for each in word.readings if each.tag not in out or not each.exact)
@@ -205,13 +207,13 @@ def _may_relate(words: Sequence[SourceWord], place: int) -> bool:
     return before >= 0 and words[before].readings[0].tag.startswith(_BEFORE_RELATIVES)
 
 
-def _before_participle(words: Sequence[SourceWord], morphology: Morphology) -> bool:
-    """Whether a participle comes before anything that cannot stand between it and its auxiliary."""
+def _before_participle(words: Sequence[SourceWord], inside: tuple[str, ...], morphology: Morphology) -> bool:
+    """Whether a participle comes before any word that is not of the kinds that stand inside a perfect."""
     for word in words:
         verbs = (reading.lemma for reading in word.readings if reading.tag.startswith("V:") and reading.exact)
         if any(morphology.is_form(word.form, lemma, "V:part") for lemma in verbs):
             return True
-        if not word.readings[0].tag.startswith(_INSIDE_PERFECT):
+        if not word.readings[0].tag.startswith(inside):
             return False
     return False
 

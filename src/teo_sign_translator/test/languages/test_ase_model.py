@@ -48,6 +48,12 @@ def translator() -> Translator:
         ("Yesterday I went to school.", "YESTERDAY ME GO SCHOOL"),
         ("I went to school yesterday.", "YESTERDAY ME GO SCHOOL"),
         ("If it rains, I will stay home.", "IF RAIN ME WILL STAY HOME"),
+        # What "it" is for is pointed at or left out; what is said twice is done once
+        ("I bought it yesterday.", "YESTERDAY ME BUY"),
+        ("Is it raining?", "RAIN"),
+        ("What is it?", "WHAT"),
+        ("Have you finished your soup yet?", "YOU FINISH YOUR SOUP"),
+        ("How long has a teacher been eating here?", "TEACHER EAT HERE HOW_LONG"),
         # As people type
         ("where do u live", "YOU LIVE WHERE"),
         ("I DON'T KNOW!!!", "ME DONT_KNOW"),
