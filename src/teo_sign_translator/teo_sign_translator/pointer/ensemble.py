@@ -42,7 +42,7 @@ class Ensemble:
         self.config = config
         self.vocabulary = vocabulary
         self._members = [
-            ArrayModel(config, vocabulary, _of_member(member, weights)) for member in range(config.members)
+            ArrayModel(config, vocabulary, of_member(member, weights)) for member in range(config.members)
         ]
 
     def encode(self, sentences: Sequence[Sequence[SourceWord]], spare: int = 0) -> Memory:
@@ -77,7 +77,8 @@ def _mean(arrays: Sequence[Array]) -> Array:
     return result
 
 
-def _of_member(member: int, weights: Mapping[str, NDArray[np.floating]]) -> dict[str, NDArray[np.floating]]:
+def of_member(member: int, weights: Mapping[str, NDArray[np.floating]]) -> dict[str, NDArray[np.floating]]:
+    """The weights of one member of those that `member_weights` put together."""
     beginning = f"{member}."
     return {
         name.removeprefix(beginning): value for name, value in weights.items() if name.startswith(beginning)

@@ -17,7 +17,7 @@ from teo_sign_training.cli.command import LanguageOption, run_command
 from teo_sign_training.fitting.fitting import ZOO, TrainingConfig, network_config
 from teo_sign_training.fitting.lstm256_fitting import SHIPPED_CONFIG, train_published
 from teo_sign_training.fitting.network import named_device
-from teo_sign_training.fitting.run import load_training_data, train_model
+from teo_sign_training.fitting.run import load_start, load_training_data, train_model
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.pointer.config import POINTER
 from teo_sign_translator.text.source_words import source_words
@@ -48,6 +48,10 @@ def run(
     pairs: Annotated[
         int | None, typer.Option(min=1, help="Most training pairs; all by default. Not for lstm256.")
     ] = None,
+    start: Annotated[
+        Path | None,
+        typer.Option(help="Folder of this model, to go on from instead of from nothing; its words stay."),
+    ] = None,
     device: Annotated[
         str | None, typer.Option(help="Such as cpu or cuda; an accelerator if there is one.")
     ] = None,
@@ -64,6 +68,7 @@ def run(
         + [f"--{option.replace('_', '-')} {value}" for option, value in (given | {"seed": seed}).items()]
         + ([f"--pairs {pairs}"] if pairs else [])
         + ([f"--language {language}"] if language != DEFAULT_LANGUAGE else [])
+        + (["--start DIR"] if start else [])
     )
     if model == PUBLISHED:
         published = dataclasses.replace(SHIPPED_CONFIG, seed=seed, **given)
@@ -73,11 +78,12 @@ def run(
         return
     where = named_device(device)
     network = network_config(model)
+    before = load_start(model, network, start) if start else None
     config = dataclasses.replace(TrainingConfig(seed=seed), **given)
     read = partial(source_words, morphology=Morphology.load(signed.text))
     with console.status("reading the corpus"):
         data = load_training_data(corpus, read, pairs, seed, signed)
-    trained = train_model(model, network, config, data, read, directory, command, console, where)
+    trained = train_model(model, network, config, data, read, directory, command, console, where, before)
     fit = trained.fit
     console.print(
         f"{directory / model}.safetensors: {fit.pairs} pairs ({fit.left_out} left out: a gloss that it "

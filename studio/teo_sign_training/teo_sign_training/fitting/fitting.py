@@ -6,9 +6,10 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
+from typing import NamedTuple
 
 import numpy as np
 import torch
@@ -180,6 +181,18 @@ class Fit:
     device: str
 
 
+class Start(NamedTuple):
+    """A network that a training goes on from.
+
+    Attributes:
+        vocabulary: Its lists, which stay: what they lack is read as unknown, and said if it is a copy.
+        weights: By name.
+    """
+
+    vocabulary: Vocabulary
+    weights: Mapping[str, NDArray[np.floating]]
+
+
 def fit(
     train: Sequence[Pair],
     dev: Sequence[Pair],
@@ -189,10 +202,11 @@ def fit(
     config: TrainingConfig,
     *,
     written: Sequence[Pair] = (),
+    start: Start | None = None,
     device: torch.device | None = None,
     on_progress: Callable[[TrainingProgress], None] | None = None,
 ) -> Fit:
-    """Train from nothing. The same arguments give the same weights on the same machine.
+    """Train a network. The same arguments give the same weights on the same machine.
 
     Args:
         train: Pairs to learn from.
@@ -202,6 +216,7 @@ def fit(
         network_config: What is trained.
         config: How.
         written: Pairs that each pass repeats as well.
+        start: What to go on from; nothing by default.
         device: Where; an accelerator if there is one by default.
         on_progress: Called now and then.
 
@@ -216,7 +231,11 @@ def fit(
     pairs = reader.examples([*train, *written, *by_heart])
     development = reader.examples(dev)
     table = reader.table()
-    vocabulary = make_vocabulary(pairs, table, len(train) + len(written), copy=network_config.copy)
+    vocabulary = (
+        start.vocabulary
+        if start
+        else make_vocabulary(pairs, table, len(train) + len(written), copy=network_config.copy)
+    )
     numbers = WordNumbers.of(table, vocabulary, pairs)
     closed = numbers.glosses >= 0
     lost = unsayable(pairs, table, closed, network_config.copy)
@@ -237,7 +256,10 @@ def fit(
 
     with seeded(config.seed), one_thread():
         random = np.random.default_rng(config.seed)
-        network = Network(network_config, vocabulary, config.dropout).to(device)
+        network = Network(network_config, vocabulary, config.dropout)
+        if start:
+            network.take(start.weights)
+        network.to(device)
         optimiser = torch.optim.AdamW(network.parameters(), config.learning_rate, weight_decay=0.01)
         steps = max(1, len(learned) // config.batch_size)
         schedule = torch.optim.lr_scheduler.LambdaLR(optimiser, _schedule(steps * config.epochs))

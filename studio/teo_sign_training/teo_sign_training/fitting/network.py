@@ -7,7 +7,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, fields
 from typing import Any
@@ -165,6 +165,12 @@ class Network(nn.Module):
     def weights(self) -> dict[str, NDArray[np.float32]]:
         """The weights by name, in PyTorch's layout."""
         return {name: value.detach().cpu().numpy().copy() for name, value in self.state_dict().items()}
+
+    def take(self, weights: Mapping[str, NDArray[np.floating]]) -> None:
+        """Take over the weights of a network of the same layers and vocabulary."""
+        self.load_state_dict(
+            {name: torch.from_numpy(value.astype(np.float32)) for name, value in weights.items()}
+        )
 
     def _first_state(self, memory: Tensor) -> Tensor | tuple[Tensor, Tensor]:
         """The decoder's state before the first gloss, from the last state of each direction."""

@@ -10,6 +10,7 @@ import subprocess
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import torch
@@ -20,11 +21,19 @@ from teo_sign_languages import Language
 from teo_sign_training.corpus import Pair
 from teo_sign_training.corpus.pairs import corpus_hash, read_splits, sample, without
 from teo_sign_training.corpus.paper_pairs import Reader, memorised_pairs, not_memorised, written_pairs
-from teo_sign_training.fitting.fitting import Fit, TrainingConfig, TrainingProgress, fit
+from teo_sign_training.fitting.fitting import Fit, Start, TrainingConfig, TrainingProgress, fit
 from teo_sign_training.fitting.metrics import Score, score
+from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.model_files import Weights, read_model
 from teo_sign_translator.pointer.config import NetworkConfig
-from teo_sign_translator.pointer.decoding import SentenceModel, load_sentence_model, save_sentence_model
-from teo_sign_translator.pointer.ensemble import member_weights
+from teo_sign_translator.pointer.decoding import (
+    SCHEMA,
+    SentenceModel,
+    load_sentence_model,
+    save_sentence_model,
+)
+from teo_sign_translator.pointer.ensemble import member_weights, of_member
+from teo_sign_translator.pointer.vocabulary import Vocabulary
 
 #: Pairs of a held-out split that are translated to score a model: 2,000 give a standard error of 1 % at most.
 _SCORED = 2000
@@ -93,6 +102,43 @@ def load_training_data(
     return TrainingData(train, splits, by_heart, written, corpus, corpus_hash(corpus), language)
 
 
+@dataclass(frozen=True, slots=True)
+class StartModel:
+    """A model that a training goes on from.
+
+    Attributes:
+        members: Its networks.
+        command: That made it.
+    """
+
+    members: tuple[Start, ...]
+    command: str
+
+
+def load_start(name: str, network: NetworkConfig, directory: Path) -> StartModel:
+    """Read the model that a training is to go on from.
+
+    Args:
+        name: Of its files.
+        network: What is to be trained.
+        directory: Folder of its files.
+
+    Raises:
+        TranslationError: "unknown_model"; "invalid_model" if it is another network, too.
+    """
+
+    def build(card: dict[str, Any], weights: Weights) -> StartModel:
+        found = NetworkConfig(**card["network"])
+        if found != network:
+            raise TranslationError("invalid_model", f"expected {network} to go on from, got {found}")
+        vocabulary = Vocabulary.from_dict(card["lexis"])
+        members = range(network.members)
+        own = [of_member(member, weights) if network.members > 1 else weights for member in members]
+        return StartModel(tuple(Start(vocabulary, each) for each in own), card["command"])
+
+    return read_model(name, SCHEMA, directory, build)
+
+
 def train_model(
     name: str,
     network: NetworkConfig,
@@ -103,6 +149,7 @@ def train_model(
     command: str,
     console: Console,
     device: torch.device | None = None,
+    start: StartModel | None = None,
 ) -> TrainedModel:
     """Train, write the files, load them again and score what was loaded.
 
@@ -116,6 +163,7 @@ def train_model(
         command: Goes into the card.
         console: Shows the progress.
         device: Where; an accelerator if there is one by default.
+        start: What to go on from; nothing by default.
 
     Raises:
         TranslationError: "invalid_config", "invalid_data".
@@ -144,6 +192,7 @@ def train_model(
                     network,
                     own,
                     written=data.written,
+                    start=start.members[member] if start else None,
                     device=device,
                     on_progress=show,
                 )
@@ -153,7 +202,7 @@ def train_model(
         "description": f"Reads {data.language.spoken.name} words with their readings, says "
         f"{data.language.names.short} glosses; see pointer/config.py.",
         "language": data.language.code,
-        "command": command,
+        "command": f"{start.command}, then {command}" if start else command,
         "training": dataclasses.asdict(config),
         "data": {
             "sha256": data.sha256,

@@ -62,6 +62,21 @@ def test_train_writes_a_model_that_says_what_made_it(
     assert "TÚ" in card["lexis"]["glosses"]  # which the paper's pairs say without a word
 
 
+@pytest.mark.slow  # reads every written pair twice
+def test_train_goes_on_from_a_model_and_says_so(tmp_path: Path, corpus: Path) -> None:
+    first, second = tmp_path / "first", tmp_path / "second"
+    train.run("gru", corpus=corpus, out=first, seed=3, epochs=1, pairs=60)
+    train.run("gru", corpus=corpus, out=second, seed=4, epochs=1, pairs=60, start=first)
+    before, after = (read_card("gru", folder) for folder in (first, second))
+    assert after["lexis"] == before["lexis"]
+    assert after["result"]["losses"][0][0] < before["result"]["losses"][0][0]
+    assert after["command"].startswith(f"{before['command']}, then ros2 run")
+    (first / "lstm.json").write_bytes((first / "gru.json").read_bytes())
+    (first / "lstm.safetensors").write_bytes((first / "gru.safetensors").read_bytes())
+    with refused("invalid_model", "to go on from"):
+        train.run("lstm", corpus=corpus, out=second, seed=4, start=first)
+
+
 def test_train_refuses_a_model_and_a_corpus_that_do_not_exist(tmp_path: Path, corpus: Path) -> None:
     with refused("unknown_model", "pointer"):
         train.run("transformer", corpus=corpus, out=tmp_path, seed=1)

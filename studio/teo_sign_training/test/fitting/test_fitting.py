@@ -14,7 +14,7 @@ from refusals import refused
 from small_language import NOUNS, fit_small, read, sentence_pairs, small_config
 
 from teo_sign_training.corpus import Pair
-from teo_sign_training.fitting.fitting import TrainingConfig, fit
+from teo_sign_training.fitting.fitting import Start, TrainingConfig, fit
 from teo_sign_training.fitting.network import named_device, one_thread
 from teo_sign_translator.pointer.config import POINTER, NetworkConfig
 
@@ -39,6 +39,18 @@ def test_training_stops_when_the_development_pairs_get_no_better() -> None:
     trained = fit(pairs, unlike, [], read, small_config(POINTER), config)
     assert len(trained.dev_losses) == trained.best_epoch + 2 < 60
     assert trained.dev_losses[trained.best_epoch - 1] == min(trained.dev_losses)
+
+
+def test_a_training_goes_on_from_the_weights_of_a_network_and_keeps_its_words() -> None:
+    pairs = sentence_pairs(60)
+    before = fit_small(POINTER, pairs, epochs=12)
+    few = TrainingConfig(epochs=1, batch_size=16, learning_rate=0.001, dropout=0.0, clean=1.0, rare_word=0.0)
+    start = Start(before.vocabulary, before.weights)
+    # Fewer pairs, with fewer words than the network knows.
+    after = fit(pairs[:20], [], [], read, small_config(POINTER), few, start=start)
+    assert after.vocabulary == before.vocabulary
+    assert after.losses[0] < 0.2 * fit_small(POINTER, pairs, epochs=1).losses[0]
+    assert any(not np.array_equal(after.weights[name], weights) for name, weights in before.weights.items())
 
 
 def test_a_gloss_that_is_always_a_copy_has_no_place_in_the_closed_list() -> None:
