@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Sentences of texts, each as it stands there: are they as accepted, in how many signs, and is a word lost?
+"""Sentences of texts, each as it stands there: are they as accepted, and in how many signs?
 
 A line of test/data/paragraphs.glosses says which text its sentence belongs to, then its translations there.
 """
