@@ -1,3 +1,3 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The systems that the translator is measured beside."""
+"""How translations are judged: accepted answers, texts, and the systems to compare with."""
