@@ -61,6 +61,6 @@ release: ## models and tables as versioned files with their hashes, in OUT/relea
 	@scripts/release.sh
 
 bench: setup ## the figures of docs/figures.md; BENCH="NAME --option 1": those of one bench
-	@$(ENV) PYTHONPATH="$$PWD/scripts:$$PWD/test/support/nodes:$$PWD/test/support/made:$$PYTHONPATH" python studio/bench/run.py $(BENCH)
+	@$(ENV) PYTHONPATH="$$PWD/scripts:$$PWD/test/support/nodes:$$PWD/test/support/made:$$PWD/test/support/pages:$$PYTHONPATH" python studio/bench/run.py $(BENCH)
 
 export TEXT OUT ROBOT LANGUAGE

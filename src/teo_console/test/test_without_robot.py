@@ -170,6 +170,16 @@ def test_at_200_percent_the_header_leaves_three_quarters_of_the_screen(api: Api,
     page.close()
 
 
+def test_at_1100_pixels_the_header_is_one_line_in_both_languages(api: Api, page: Page) -> None:
+    page.goto(api.url)
+    for language in ("es", "en"):
+        expect(page.locator("html")).to_have_attribute("lang", language)
+        boxes = page.locator("header > *").evaluate_all("parts => parts.map((part) => part.offsetTop)")
+        tallest = page.locator("#stop").evaluate("button => button.offsetHeight")
+        assert page.locator("header").evaluate("header => header.offsetHeight") < 2 * tallest, boxes
+        page.click("#language")
+
+
 def test_a_comprehension_test_is_taken_in_a_browser_tells_nothing_and_is_reported(
     api: Api, browser: Browser, pictures: Path
 ) -> None:

@@ -56,6 +56,12 @@ def test_nearest_as_json_names_for_each_sign_those_most_like_it(tmp_path: Path) 
     near = json.loads(run("nearest", "--lut", tmp_path, "--json", "--count", "1").output)
     assert near["R"][0]["gloss"] == "U" and near["U"][0]["gloss"] == "R"  # as LUT.md says
     assert len(near["A"]) == 1
+    assert json.loads(run("nearest", "U", "A", "--lut", tmp_path, "--json", "--count", "1").output) == {
+        "U": near["U"],
+        "A": near["A"],
+    }
+    unknown = run("nearest", "U", "Ñ", "--lut", tmp_path)
+    assert unknown.exit_code == 1 and "unknown_sign" in unknown.output
 
 
 def test_review_writes_what_enough_people_found_right_into_the_own_table(

@@ -10,7 +10,7 @@ handshape by the letter that it looks like: `Handshapes` names it so.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Container, Iterable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -64,12 +64,21 @@ class Difference:
         return max(lengths, self.orientation / SEEN_ANGLE, self.place / SEEN_PLACE)
 
 
-def nearest_pairs(robot: Robot, signs: Iterable[Sign]) -> list[Difference]:
-    """Every pair of signs, the most alike first; two names of one sign are no pair."""
+def nearest_pairs(robot: Robot, signs: Iterable[Sign], of: Container[str] | None = None) -> list[Difference]:
+    """Every pair of signs, the most alike first; two names of one sign are no pair.
+
+    Args:
+        robot: That makes them.
+        signs: That are compared.
+        of: Glosses: each pair has one of them. Without, any pair counts.
+    """
     signs = list(signs)
+    chosen = signs if of is None else [sign for sign in signs if sign.gloss in of]
+    if of is not None:
+        signs = chosen + [sign for sign in signs if sign.gloss not in of]
     hands = [_appearances(robot, signs, side) for side in SIDES] if signs else []
     found: list[Difference] = []
-    for index, first in enumerate(signs):
+    for index, first in enumerate(chosen):
         rows = np.max([_differences(hand, index) for hand in hands], axis=0).tolist()
         for second, (handshape, orientation, movement, place) in zip(signs[index + 1 :], rows, strict=True):
             if not _one_form(first, second):

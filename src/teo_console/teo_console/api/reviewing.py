@@ -140,9 +140,13 @@ async def _enter_series(workbench: Workbench, wanted: _NewSeries, told: Preparat
     if not signs and not wanted.sentences:
         drawn = random.Random(seed).sample(words, min(wanted.count, len(words)))
         signs = [await table.signs.get(gloss) for gloss in drawn]
+    compared = [sign.gloss for sign in signs if sign.kind == "lexical"] if wanted.choices else []
+    near: dict[str, list[str]] = {}
+    if compared:
+        job = await workbench.jobs.run(table.commands.nearest_signs(compared, CHOICES - 1))
+        near = {gloss: [other["gloss"] for other in others] for gloss, others in job.result.items()}
     items = []
     for sign in signs:
-        near = await table.signs.nearest(sign.gloss) if wanted.choices else ()
         items.append(
             NewItem(
                 kind="sign",
@@ -150,7 +154,7 @@ async def _enter_series(workbench: Workbench, wanted: _NewSeries, told: Preparat
                 language=sign.language,
                 motion_hash=sign.motion_hash,
                 motion=await _planned(workbench, table, sign.gloss),
-                choices=offered(sign.gloss, near, words, seed) if wanted.choices else (),
+                choices=offered(sign.gloss, near.get(sign.gloss, ()), words, seed) if wanted.choices else (),
             )
         )
         told.done += 1

@@ -8,10 +8,9 @@ import asyncio
 import os
 import shutil
 import time
-from collections.abc import Awaitable, Callable, Sequence
+from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import msgspec
 from msgspec import Struct
@@ -21,7 +20,6 @@ from teo_console.jobs.commands import Commands
 from teo_console.jobs.queue import JobQueue
 from teo_console.jobs.recordings import Recordings
 from teo_console.protocol import Gloss
-from teo_console.review.series import CHOICES
 from teo_console.review.store import ReviewStore
 from teo_description.humanoid import DEFAULT_ROBOT
 from teo_sign_languages import DEFAULT_LANGUAGE
@@ -59,21 +57,17 @@ def gloss_key(gloss: str) -> str:
 class SignList:
     """Lists the table when it is asked for."""
 
-    def __init__(self, commands: Commands, lookups: JobQueue, jobs: JobQueue) -> None:
+    def __init__(self, commands: Commands, lookups: JobQueue) -> None:
         """List nothing yet.
 
         Args:
             commands: On the table.
             lookups: Lists it.
-            jobs: Compares all of its signs, which takes longer.
         """
         self._commands = commands
         self._lookups = lookups
-        self._jobs = jobs
         self._signs: dict[str, ListedSign] = {}
         self._listed = -_FRESH
-        self._nearest: dict[str, Sequence[str]] = {}
-        self._nearest_of: frozenset[str] = frozenset()
 
     async def signs(self) -> dict[str, ListedSign]:
         """Every sign by its gloss.
@@ -100,20 +94,6 @@ class SignList:
                 "unknown_sign", f"expected a sign of the table, which has {len(signs)}, got {gloss!r}"
             )
         return signs[gloss]
-
-    async def nearest(self, gloss: str) -> Sequence[str]:
-        """The words that look most like a sign, the nearest first; none of what is no word.
-
-        Raises:
-            ConsoleError: The command failed.
-        """
-        motions = frozenset(sign.motion_hash for sign in (await self.signs()).values())
-        if motions != self._nearest_of:
-            job = await self._jobs.run(self._commands.nearest_signs(CHOICES - 1))
-            found: dict[str, list[dict[str, Any]]] = job.result
-            self._nearest = {name: [other["gloss"] for other in near] for name, near in found.items()}
-            self._nearest_of = motions
-        return self._nearest.get(gloss, ())
 
     def changed(self) -> None:
         """Forget the list: the table was written to."""
@@ -221,7 +201,7 @@ class Workbench:
         if commands not in self._tables:
             self._tables[commands] = Table(
                 commands=commands,
-                signs=SignList(commands, self.lookups, self.jobs),
+                signs=SignList(commands, self.lookups),
                 reviews=ReviewStore(self.folders.reviews_of(commands)),
             )
         self._table = self._tables[commands]

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -43,8 +44,6 @@ class Command:
 _FILM_SECONDS = 240.0
 # Of what only reads the table or plans a sentence [s]: one to ten on an idle machine.
 _TABLE_SECONDS = 90.0
-# Of comparing every word of the table with every other [s]: twelve on an idle machine.
-_NEAREST_SECONDS = 300.0
 # A text is translated in batches; the longest that a page sends takes some ten [s].
 _TEXT_SECONDS = 180.0
 # TensorFlow Lite and OpenCV map libraries and thread stacks; what they use of it is a tenth.
@@ -73,11 +72,10 @@ class Commands:
         """Every sign of the table, as JSON."""
         return self._lut("list", _TABLE_SECONDS, "list", "--json")
 
-    def nearest_signs(self, count: int) -> Command:
-        """For each word those that look most like it, as JSON."""
-        return self._lut(
-            "nearest", _NEAREST_SECONDS, "nearest", "--kind", "lexical", "--json", "--count", str(count)
-        )
+    def nearest_signs(self, words: Sequence[str], count: int) -> Command:
+        """For each of these words those that look most like it, as JSON."""
+        told = ("--kind", "lexical", "--json", "--count", str(count), "--", *words)
+        return self._lut("nearest", _TABLE_SECONDS, "nearest", *told)
 
     def coverage(self, text: str) -> Command:
         """Which words of a text are signed, and what to record next, as JSON."""

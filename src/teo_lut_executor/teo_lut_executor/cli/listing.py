@@ -119,6 +119,9 @@ def _print_signs(table: Lut, chosen: list[Sign], unreadable: dict[str, LutError]
 
 
 def nearest(
+    glosses: Annotated[
+        list[str] | None, typer.Argument(help="Only pairs with one of these.", show_default=False)
+    ] = None,
     count: Annotated[
         int, typer.Option(help="How many pairs, or with --json how many of each sign.", min=1)
     ] = 15,
@@ -134,9 +137,13 @@ def nearest(
     signs = signs_of_kind(open_table(lut, robot, language), kind)
     if as_json and not signs:
         fail(LutError("unknown_sign", f"--kind: expected a kind that the table has, got {kind!r}"))
-    pairs = nearest_pairs(Robot.load(robot), signs)
+    known = {sign.gloss for sign in signs}
+    if unknown := [gloss for gloss in glosses or () if gloss not in known]:
+        fail(LutError("unknown_sign", f"expected signs of the kind {kind}, got {', '.join(unknown)}"))
+    pairs = nearest_pairs(Robot.load(robot), signs, of=glosses)
     if as_json:
-        print(json.dumps(_of_each(pairs, count), ensure_ascii=False))
+        near = _of_each(pairs, count)
+        print(json.dumps({gloss: near[gloss] for gloss in glosses or near}, ensure_ascii=False))
     else:
         _print_pairs(pairs[:count])
 
