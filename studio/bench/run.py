@@ -32,6 +32,7 @@ BENCHES = (
     "nodes.driver_executed",
     "nodes.driver_physics",
     "nodes.console_page",
+    "nodes.first_hour",
     "translation",
     "words",
     "nodes.text_to_trajectory",
