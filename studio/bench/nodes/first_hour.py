@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""What a newcomer does on the page in a first hour: clicks, keys, and the seconds that the page takes for it."""
+"""What a newcomer does on the page in a first hour: clicks, keys, and the seconds that it takes."""
 
 from __future__ import annotations
 
