@@ -118,7 +118,7 @@ async def settled(address: str) -> None:
     ):
         situation = await next_message(socket, "situation")
         if not is_idle(situation):
-            requests = [{"type": "command", "order": order} for order in ORDERS]
+            requests: list[dict[str, Any]] = [{"type": "command", "order": order} for order in ORDERS]
             requests += [{"type": "set_speed", "factor": 1.0}]
             requests += [{"type": "discard_spoken", "spoken": each["id"]} for each in situation["spoken"]]
             for number, request in enumerate(requests):
