@@ -79,16 +79,37 @@ class PersonWords:
 
 
 @dataclass(frozen=True)
+class ObviationWords:
+    """Who does what the signer wishes; the section `obviation`. All are empty where verbs say it.
+
+    Attributes:
+        joiner: Word that joins a clause in the subjunctive to the verb before it.
+        link: Word that may stand between the two.
+        object: Object pronoun of the signer.
+        signer: Gloss that points at the signer.
+        other: Gloss that points at a third person.
+    """
+
+    joiner: str
+    link: str
+    object: str
+    signer: str
+    other: str
+
+
+@dataclass(frozen=True)
 class PipelineWords:
     """All of it.
 
     Attributes:
         completeness: What may go without a gloss.
         persons: Who acts on whom.
+        obviation: Who does what the signer wishes.
     """
 
     completeness: CompletenessWords
     persons: PersonWords
+    obviation: ObviationWords
 
     @classmethod
     @cache
@@ -98,7 +119,7 @@ class PipelineWords:
         Raises:
             TranslationError: "invalid_data" naming file and field.
         """
-        sections = {"completeness": CompletenessWords, "persons": PersonWords}
+        sections = {"completeness": CompletenessWords, "persons": PersonWords, "obviation": ObviationWords}
         return cls(**read_sections(folder / _FILE, sections))
 
 
