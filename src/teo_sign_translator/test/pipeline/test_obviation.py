@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Who does what is wished, as a speaker of Spanish reads the sentence; by its grammar alone and by the model."""
+"""Who does what is wished, as a speaker of Spanish reads the sentence."""
 
 from __future__ import annotations
 
