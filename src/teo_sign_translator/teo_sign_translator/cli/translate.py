@@ -29,7 +29,7 @@ from teo_sign_translator.pipeline.translator import DEFAULT_MODEL, Translator
 #: they are done.
 _TOGETHER = 256
 
-app = typer.Typer(add_completion=False)
+app = typer.Typer(add_completion=False, rich_markup_mode=None)
 
 
 @app.command()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -100,3 +101,11 @@ def test_text_or_standard_input_is_needed_but_not_both(arguments: list[str]) -> 
     code, out, err = _run(*arguments)
     assert (code, out) == (2, "")
     assert "either a text, --stdin" in err
+
+
+def test_the_help_breaks_no_line_that_has_room_for_the_next_word() -> None:
+    described = RUNNER.invoke(app, ["--help"], env={"COLUMNS": "80", "TERMINAL_WIDTH": "80"}).stdout
+    paragraphs = described.partition("\n\n")[2].partition("Arguments:")[0].split("\n\n")
+    assert any(len(paragraph.splitlines()) > 2 for paragraph in paragraphs)
+    for before, line in (pair for each in paragraphs for pair in pairwise(each.splitlines())):
+        assert len(f"{before} {line.split()[0]}") > 72, (before, line)
