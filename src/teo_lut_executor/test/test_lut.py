@@ -60,6 +60,10 @@ def test_nearest_as_json_names_for_each_sign_those_most_like_it(tmp_path: Path) 
         "U": near["U"],
         "A": near["A"],
     }
+    (tmp_path / "one").mkdir()
+    copied(tmp_path / "one", "A")
+    alone = run("nearest", "A", "--lut", tmp_path / "one", "--json")
+    assert json.loads(alone.output) == {"A": []}  # nothing else is there
     unknown = run("nearest", "U", "Ñ", "--lut", tmp_path)
     assert unknown.exit_code == 1 and "unknown_sign" in unknown.output
 

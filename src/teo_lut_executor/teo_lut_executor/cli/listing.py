@@ -143,7 +143,7 @@ def nearest(
     pairs = nearest_pairs(Robot.load(robot), signs, of=glosses)
     if as_json:
         near = _of_each(pairs, count)
-        print(json.dumps({gloss: near[gloss] for gloss in glosses or near}, ensure_ascii=False))
+        print(json.dumps({gloss: near.get(gloss, []) for gloss in glosses or near}, ensure_ascii=False))
     else:
         _print_pairs(pairs[:count])
 
