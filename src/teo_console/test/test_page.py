@@ -104,6 +104,7 @@ def when_stopped(node: Node) -> float:
     while not stamps and time.monotonic() < deadline:
         executor.spin_once(timeout_sec=0.1)
     executor.shutdown()
+    assert stamps, "the driver does not say that the stopped robot is at rest"
     return stamps[0]
 
 
