@@ -105,12 +105,14 @@ class LetterClips(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
         place: Letters whose mean place in the recordings is put where a robot spells; all if empty.
         begins_as: Letters whose hand the recording shows too late, and the letter that they begin as.
         same_palm: Letters that a robot turns as another one where their own palm is out of its reach.
+        same_thumb: Letters whose thumb is hidden in the recording, and the letter that has it seen.
     """
 
     collection: Code
     place: list[Text] = []
     begins_as: dict[Text, Text] = {}
     same_palm: dict[Text, Text] = {}
+    same_thumb: dict[Text, Text] = {}
 
 
 class Alphabet(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -150,7 +152,7 @@ class Alphabet(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
         named |= {letter for letters in self.flexions.values() for letter in letters}
         named |= {letter for letters in self.notes.values() for letter in letters}
         if self.clips is not None:
-            pairs = (self.clips.begins_as, self.clips.same_palm)
+            pairs = (self.clips.begins_as, self.clips.same_palm, self.clips.same_thumb)
             named |= {
                 *self.clips.place,
                 *(letter for pair in pairs for both in pair.items() for letter in both),

@@ -27,6 +27,7 @@ from teo_sign_authoring.alphabet.letter_clips import (
     reaches,
     tilts,
 )
+from teo_sign_authoring.alphabet.letter_movement import quick_movement
 from teo_sign_authoring.alphabet.spelling_arm import (
     ArmFit,
     fit_arm,
@@ -35,7 +36,7 @@ from teo_sign_authoring.alphabet.spelling_arm import (
     is_at_its_place,
     shift_off_face,
 )
-from teo_sign_authoring.alphabet.spelling_hand import HandFit, fit_robot_hand
+from teo_sign_authoring.alphabet.spelling_hand import HandFit, HandProblem, fit_robot_hand
 from teo_sign_capture.retarget.hand_motion import axis_shares
 from teo_sign_capture.retarget.knots import clearance_mm, limit_margin_deg, reduce_to_knots
 from teo_sign_capture.signing_space import find_place, finger_rows
@@ -46,9 +47,9 @@ from teo_signs.sign_schema import Provenance
 
 _FINGERS = ("index", "middle", "ring", "little")
 
-# [rad] Knots follow the recorded motion to this, 7 mm at the finger tips of a hand that turns at its wrist:
-# the slight swings in which a movement dies away would cost TEO, at 50 deg/s, more time than the movement.
-_TOLERANCE = np.radians(2.0)
+# [rad] Knots follow the motion to this, 2 mm at the finger tips of a hand that turns at its wrist: it has lost
+# its trembling, and the hand's way is not to lose more.
+_TOLERANCE = np.radians(0.5)
 # [rad] A palm that is farther than this from the person's is worth giving up place and shape for.
 _OUT_OF_REACH = np.radians(20.0)
 # Each shift off the face moves the arm, and with it the hand a little back.
@@ -126,9 +127,12 @@ def capture_letter(robot: Robot, alphabet: RecordedAlphabet, letter: str) -> Sig
         poses = [first, *poses]
     places = _places(clip, alphabet, stroke)
     shared = _letter_in(_recordings(alphabet.language).same_palm, alphabet, letter)
+    beside = _letter_in(_recordings(alphabet.language).same_thumb, alphabet, letter)
     shift = np.zeros(3)
     for _ in range(_FACE_TRIES):
         arms, hands = _retarget(robot, clip, stroke, poses, places + shift, shared)
+        if beside is not None:
+            hands = _with_thumb_of(robot, beside, poses, hands, arms[0].palm)
         hand_path = _hand_path(robot, clip, stroke, hands)
         for finger, bend in (
             alphabet.language.alphabet.flexions.get(humanoid.name, {}).get(letter, {}).items()
@@ -140,6 +144,8 @@ def capture_letter(robot: Robot, alphabet: RecordedAlphabet, letter: str) -> Sig
             break
         shift = shift + more
     times = (stroke.frames - stroke.first) / clip.rate
+    quick = quick_movement(robot, np.array([arm.positions for arm in arms]))
+    positions = np.hstack([quick, hand_path])
     kept = reduce_to_knots(times, positions, _TOLERANCE)
     knots = positions[kept]
     return Sign(
@@ -222,6 +228,17 @@ def _retarget(
         for pose, (start, end) in zip(poses, stroke.holds, strict=True)
     ]
     return arms, hands
+
+
+def _with_thumb_of(
+    robot: Robot, other: HandPose, poses: list[HandPose], hands: list[HandFit], palm: Array
+) -> list[HandFit]:
+    """Hands with the thumb that another letter's hand has."""
+    thumb = fit_robot_hand(robot, other, other.rotation).positions[:2]
+    return [
+        HandProblem(robot, pose, palm).result(np.concatenate([thumb, hand.positions[2:]]))
+        for pose, hand in zip(poses, hands, strict=True)
+    ]
 
 
 def _held_arm(robot: Robot, pose: HandPose, shared: HandPose | None, place: Array) -> ArmFit:
