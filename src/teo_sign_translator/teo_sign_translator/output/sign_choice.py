@@ -8,6 +8,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field, replace
 from enum import IntEnum
+from itertools import pairwise
 from pathlib import Path
 
 from teo_sign_translator.data_files import data_file, invalid_line, read_lines, read_rows
@@ -138,22 +139,26 @@ def read_incorporated(path: Path) -> Incorporated:
 
 
 def with_numbers_incorporated(
-    output_words: Sequence[OutputWord], signs: Set[str] | None, incorporated: Incorporated
+    output_words: Sequence[OutputWord],
+    typed: Sequence[str],
+    signs: Set[str] | None,
+    incorporated: Incorporated,
 ) -> list[OutputWord]:
-    """Output words, a gloss and the number beside it as one where that has a sign.
+    """Output words, a gloss and the number that counts it as one where that has a sign.
 
     Two weeks are one sign in LSE, made with the hand of the number. Where the table lacks it, noun and number
     stay two signs.
 
     Args:
         output_words: Of one sentence.
+        typed: Its words: in "dos veces por semana" no weeks are counted.
         signs: Glosses that have a sign; None if that is not known: then nothing is put together.
         incorporated: The glosses that are both.
     """
     result: list[OutputWord] = []
     for word in output_words:
         gloss = _together(result[-1], word, incorporated) if result else ""
-        if signs is not None and gloss and gloss in signs:
+        if signs is not None and gloss in signs and _side_by_side(result[-1].words, word.words, typed):
             before = result.pop()
             noun = before if before.kind is Kind.LEXICAL else word
             confidence = min(before.confidence, word.confidence)
@@ -162,6 +167,14 @@ def with_numbers_incorporated(
         else:
             result.append(word)
     return result
+
+
+def _side_by_side(first: Sequence[str], second: Sequence[str], typed: Sequence[str]) -> bool:
+    """Whether words stand beside others in a sentence."""
+    return any(
+        (one in first and other in second) or (one in second and other in first)
+        for one, other in pairwise(typed)
+    )
 
 
 def _together(first: OutputWord, second: OutputWord, incorporated: Incorporated) -> str:

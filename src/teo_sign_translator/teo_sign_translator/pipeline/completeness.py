@@ -88,6 +88,7 @@ class ObviationWords:
         object: Object pronoun of the signer.
         signer: Gloss that points at the signer.
         other: Gloss that points at a third person.
+        concessives: Words that open a clause in the subjunctive, whose subject is that of the clause beside it.
     """
 
     joiner: str
@@ -95,6 +96,26 @@ class ObviationWords:
     object: str
     signer: str
     other: str
+    concessives: frozenset[str]
+
+
+@dataclass(frozen=True)
+class PrepositionWords:
+    """Prepositions that mean more than one thing; the section `prepositions`. All may be empty.
+
+    Attributes:
+        through: Preposition of reasons and of ways.
+        reasons: Glosses that give a reason.
+        upon: Preposition of what is spoken of, and of what something lies on.
+        above: Gloss of the place above.
+        about: Verbs and nouns that are about something.
+    """
+
+    through: str
+    reasons: frozenset[str]
+    upon: str
+    above: str
+    about: frozenset[str]
 
 
 @dataclass(frozen=True)
@@ -105,11 +126,13 @@ class PipelineWords:
         completeness: What may go without a gloss.
         persons: Who acts on whom.
         obviation: Who does what the signer wishes.
+        prepositions: Which mean more than one thing.
     """
 
     completeness: CompletenessWords
     persons: PersonWords
     obviation: ObviationWords
+    prepositions: PrepositionWords
 
     @classmethod
     @cache
@@ -119,7 +142,12 @@ class PipelineWords:
         Raises:
             TranslationError: "invalid_data" naming file and field.
         """
-        sections = {"completeness": CompletenessWords, "persons": PersonWords, "obviation": ObviationWords}
+        sections = {
+            "completeness": CompletenessWords,
+            "persons": PersonWords,
+            "obviation": ObviationWords,
+            "prepositions": PrepositionWords,
+        }
         return cls(**read_sections(folder / _FILE, sections))
 
 

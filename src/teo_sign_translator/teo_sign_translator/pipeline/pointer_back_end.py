@@ -23,6 +23,7 @@ from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.back_end import TranslatedSentence
 from teo_sign_translator.pipeline.completeness import Completeness, CompleteTranslation, PipelineWords
 from teo_sign_translator.pipeline.obviation import with_other_subjects
+from teo_sign_translator.pipeline.prepositions import Prepositions
 from teo_sign_translator.pipeline.topic import Topic, Topics
 from teo_sign_translator.pointer import Hypothesis, OutputGloss, SentenceModel
 from teo_sign_translator.pointer.vocabulary import copied_gloss
@@ -108,6 +109,7 @@ class PointerBackEnd:
         self._agreement = agreement
         self._beam_width = beam_width
         self._topics = Topics(morphology.folder)
+        self._prepositions = Prepositions(morphology.folder)
         self._pipeline_words = PipelineWords.load(morphology.folder)
 
     @property
@@ -152,7 +154,7 @@ class PointerBackEnd:
                 output_words.append(PAUSE)
             said = _as_given(hypotheses, unit.given) or self._completeness.complete(words, hypotheses)
             if not unit.given:
-                said = replace(said, glosses=with_other_subjects(words, said.glosses, self._pipeline_words))
+                said = with_other_subjects(words, self._prepositions.read(words, said), self._pipeline_words)
                 said = said.without(self._topics.repeated(words, said.glosses))
             unsaid = topic.unsaid(words, said.glosses)
             if not unit.given:

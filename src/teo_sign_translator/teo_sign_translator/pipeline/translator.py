@@ -266,7 +266,8 @@ class Translator:
             signed = _titles_as_names(signed, text[clauses[0].start : clauses[-1].stop])
         meant = with_senses(signed, clauses, self._senses, signs, self._spelling)
         chosen = self._chooser.choose(meant, signs)
-        output_words = with_numbers_incorporated(chosen, signs, self._incorporated)
+        typed = [word.text for clause in clauses for word in clause.words]
+        output_words = with_numbers_incorporated(chosen, typed, signs, self._incorporated)
         parts = [number_tokens(part) for part in divide(output_words, MAX_SENTENCE_TOKENS)]
         return [
             Sentence(

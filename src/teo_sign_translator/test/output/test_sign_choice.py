@@ -102,12 +102,17 @@ def test_no_synonym_leads_back() -> None:
 UNITS = frozenset({"SEMANA", "MES", "DOS_SEMANAS", "TRES_MESES", "NOSOTROS_DOS", "YO"})
 
 
-def _with_numbers(text: str, signs: frozenset[str] | None = UNITS) -> list[OutputWord]:
+def _with_numbers(
+    text: str, signs: frozenset[str] | None = UNITS, typed: str | None = None
+) -> list[OutputWord]:
     words = [
         number(word, (word,), 0.9)[0] if word.isdigit() else lexical(word, (word.lower(),), 0.8)
         for word in text.split()
     ]
-    return with_numbers_incorporated(words, signs, read_incorporated(TEXT / INCORPORATED_NUMBERS))
+    typed_words = (typed or text).lower().split()
+    return with_numbers_incorporated(
+        words, typed_words, signs, read_incorporated(TEXT / INCORPORATED_NUMBERS)
+    )
 
 
 @pytest.mark.parametrize(
@@ -126,6 +131,11 @@ def _with_numbers(text: str, signs: frozenset[str] | None = UNITS) -> list[Outpu
 )
 def test_a_number_goes_into_the_unit_beside_it(text: str, expected: str) -> None:
     assert " ".join(sign for word in _with_numbers(text) for sign in word.signs) == expected
+
+
+def test_a_number_goes_into_no_unit_that_it_does_not_count() -> None:
+    twice_a_week = _with_numbers("SEMANA 2 VEZ", typed="2 vez por semana")
+    assert [word.signs for word in twice_a_week] == [("SEMANA",), ("2",), ("VEZ",)]
 
 
 def test_one_sign_says_the_words_of_both_and_is_as_sure_as_the_less_sure() -> None:

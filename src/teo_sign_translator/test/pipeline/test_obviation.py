@@ -4,14 +4,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import pytest
 from loaded import TEXT, read, translator
 
-from teo_sign_translator.pipeline.completeness import PipelineWords
+from teo_sign_translator.pipeline.completeness import CompleteTranslation, PipelineWords
 from teo_sign_translator.pipeline.obviation import with_other_subjects
 from teo_sign_translator.pointer import OutputGloss
+from teo_sign_translator.text.source_word import SourceWord
 
 WORDS = PipelineWords.load(TEXT)
+
+
+def meant(words: Sequence[SourceWord], gloss: str, place: int) -> str:
+    """Whom a gloss that a verb's ending says points at."""
+    said = CompleteTranslation((OutputGloss(gloss, (place,), 0.6, copied=False),), (False,))
+    return " ".join(each.gloss for each in with_other_subjects(words, said, WORDS).glosses)
 
 
 @pytest.mark.parametrize(
@@ -25,7 +34,8 @@ WORDS = PipelineWords.load(TEXT)
         ("Hoy prefiero que ya no", "salga tarde", "ÉL"),
         ("Mi padre quiere que", "sea médico", "YO"),
         ("Me pidió que", "viniera mañana", "YO"),
-        ("Espero que me", "llame mañana", "YO"),  # whom it happens to is the signer
+        ("Espero que me", "llame mañana", "ÉL YO"),  # whom it happens to is the signer
+        ("Me molesta que", "fume aquí", "ÉL"),
         ("Ojalá", "sea feliz", "YO"),
         ("Cuando", "sea mayor", "YO"),
         ("Que", "sea feliz", "YO"),
@@ -38,8 +48,22 @@ WORDS = PipelineWords.load(TEXT)
 def test_what_the_signer_wishes_somebody_else_does(clause: str, verb: str, subject: str) -> None:
     words = read(f"{clause} {verb}.")
     place = next(place for place, word in enumerate(words) if word.form == verb.split()[0])
-    (gloss,) = with_other_subjects(words, [OutputGloss("YO", (place,), 0.6, copied=False)], WORDS)
-    assert gloss.gloss == subject
+    assert meant(words, "YO", place) == subject
+
+
+@pytest.mark.parametrize(
+    ("sentence", "subject"),
+    [
+        ("Aunque esté cansada, voy a salir.", "YO"),
+        ("Voy a trabajar, aunque tenga fiebre.", "YO"),
+        ("Aunque esté cansada, va a salir.", "ÉL"),
+        ("Me da pena que esté sola.", "ÉL"),
+    ],
+)
+def test_in_what_is_conceded_somebody_else_is_not_meant_unsaid(sentence: str, subject: str) -> None:
+    words = read(sentence)
+    place = next(place for place, word in enumerate(words) if word.form in ("esté", "tenga"))
+    assert meant(words, "ÉL", place) == subject
 
 
 @pytest.mark.parametrize("sentence", ["Quiero que sea feliz.", "Espero que apruebe el examen."])

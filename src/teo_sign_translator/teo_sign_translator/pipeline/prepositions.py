@@ -1,0 +1,107 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""What a preposition means, by the words around it.
+
+"Por" gives a reason ("no fui por la lluvia") or a way ("pasé por tu casa"); "sobre" says what is spoken of ("un
+libro sobre la guerra") or on what something lies ("un libro sobre la mesa"). LSE signs the reason and the place
+above, and nothing for the others.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence, Set
+from dataclasses import replace
+from pathlib import Path
+
+from teo_sign_translator.morphology.lexicon import nouns
+from teo_sign_translator.pipeline.completeness import CompleteTranslation, PipelineWords
+from teo_sign_translator.pointer import OutputGloss
+from teo_sign_translator.text.source_word import SourceWord
+
+#: Classes of nouns through which, by which or at which something is done.
+_WAYS = frozenset({"place", "building", "room", "body", "time"})
+#: Classes of nouns on which something may lie.
+_BEARERS = frozenset({"furniture", "object", "device", "vehicle", "container", "body", "music", "room"})
+#: Classes on which a thing lies even if it may be about them: a book on the table.
+_SURFACES = frozenset({"furniture", "room"})
+#: What may stand between a preposition and its noun, and between what is spoken of and the preposition.
+_BETWEEN = ("DET", "A:", "NUM", "ADV", "PRON:obj")
+#: Of a gloss that its preposition and noun ask for.
+_CONFIDENCE = 0.9
+
+
+class Prepositions:
+    """Reads a language's prepositions."""
+
+    def __init__(self, folder: Path) -> None:
+        """Read a language's text folder.
+
+        Raises:
+            TranslationError: "invalid_data" naming file and field.
+        """
+        self._said = PipelineWords.load(folder).prepositions
+        self._classes = {noun.lemma: frozenset(noun.classes) for noun in nouns(folder)}
+
+    def read(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """A translation without what no preposition means here, and with what one does.
+
+        Args:
+            words: Of the sentence.
+            said: A translation of it.
+        """
+        wrong = [place for place, gloss in enumerate(said.glosses) if self._is_wrong(words, gloss)]
+        said = said.without(wrong)
+        for place, word in enumerate(words):
+            claimed = any(place in gloss.sources for gloss in said.glosses)
+            if word.form == self._said.upon and not claimed and self._bears(words, place):
+                said = self._with_above(said, place, _noun_behind(words, place))
+        return said
+
+    def _is_wrong(self, words: Sequence[SourceWord], gloss: OutputGloss) -> bool:
+        if len(gloss.sources) != 1:
+            return False
+        (place,) = gloss.sources
+        if gloss.gloss in self._said.reasons:
+            behind = self._classes_of(words, _noun_behind(words, place))
+            return words[place].form == self._said.through and not _WAYS.isdisjoint(behind)
+        above = gloss.gloss == self._said.above and words[place].form == self._said.upon
+        return above and self._is_about(words, place)
+
+    def _is_about(self, words: Sequence[SourceWord], place: int) -> bool:
+        """Whether what stands before a preposition can be about something, and not lie on what is behind."""
+        before = next(
+            (word for word in reversed(words[:place]) if not word.readings[0].tag.startswith(_BETWEEN)), None
+        )
+        if before is None or before.readings[0].lemma not in self._said.about:
+            return False
+        lies = before.readings[0].tag.startswith("N")
+        return not lies or _SURFACES.isdisjoint(self._classes_of(words, _noun_behind(words, place)))
+
+    def _bears(self, words: Sequence[SourceWord], place: int) -> bool:
+        bearing = not _BEARERS.isdisjoint(self._classes_of(words, _noun_behind(words, place)))
+        is_preposition = words[place].readings[0].tag == "PREP"
+        return bearing and is_preposition and not self._is_about(words, place)
+
+    def _classes_of(self, words: Sequence[SourceWord], place: int) -> Set[str]:
+        """Classes of a noun; none at no place."""
+        return self._classes.get(words[place].readings[0].lemma, frozenset()) if place >= 0 else frozenset()
+
+    def _with_above(self, said: CompleteTranslation, place: int, noun: int) -> CompleteTranslation:
+        """The same with the place above behind the gloss of a noun; as it is if none says the noun alone."""
+        behind = next((at + 1 for at, gloss in enumerate(said.glosses) if gloss.sources == (noun,)), 0)
+        if not behind:
+            return said
+        above = OutputGloss(self._said.above, (place,), _CONFIDENCE, copied=False)
+        glosses = (*said.glosses[:behind], above, *said.glosses[behind:])
+        return replace(
+            said, glosses=glosses, put_back=(*said.put_back[:behind], True, *said.put_back[behind:])
+        )
+
+
+def _noun_behind(words: Sequence[SourceWord], place: int) -> int:
+    """Where the noun of a preposition is; -1 if there is none."""
+    behind = (
+        at for at in range(place + 1, len(words)) if not words[at].readings[0].tag.startswith(_BETWEEN)
+    )
+    noun = next(behind, -1)
+    return noun if noun >= 0 and words[noun].readings[0].tag.startswith("N:") else -1
