@@ -80,7 +80,7 @@ class PersonWords:
 
 @dataclass(frozen=True)
 class ObviationWords:
-    """Who does what the signer wishes; the section `obviation`. All are empty where verbs say it.
+    """Who does what a verb says; the section `obviation`. All are empty where its form says who.
 
     Attributes:
         joiner: Word that joins a clause in the subjunctive to the verb before it.
@@ -88,7 +88,9 @@ class ObviationWords:
         object: Object pronoun of the signer.
         signer: Gloss that points at the signer.
         other: Gloss that points at a third person.
-        concessives: Words that open a clause in the subjunctive, whose subject is that of the clause beside it.
+        concessives: Words that open a clause whose subject is that of the clause beside it: although.
+        adjuncts: Others: when, if.
+        impersonal: Verbs whose third person may be nobody.
     """
 
     joiner: str
@@ -97,6 +99,8 @@ class ObviationWords:
     signer: str
     other: str
     concessives: frozenset[str]
+    adjuncts: frozenset[str]
+    impersonal: frozenset[str]
 
 
 @dataclass(frozen=True)
@@ -125,7 +129,7 @@ class PipelineWords:
     Attributes:
         completeness: What may go without a gloss.
         persons: Who acts on whom.
-        obviation: Who does what the signer wishes.
+        obviation: Who does what a verb says.
         prepositions: Which mean more than one thing.
     """
 

@@ -1,87 +1,166 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Who does what a subjunctive says, whose form alone is "yo" and "él".
+"""Who does what a verb says whose form alone is "yo" and "él": "sea", "estaba", "iría".
 
 "Quiero que sea feliz" never wishes the signer happy: a subjunctive that "que" joins to a verb has another
-subject than that verb; with the same one it would be an infinitive (disjoint reference; Nueva gramática de la
-lengua española, 2009, chapter 25). In "aunque esté cansada, voy a salir" nobody else is spoken of.
+subject than that verb; with the same one it would be an infinitive (disjoint reference; Nueva gramática de
+la lengua española, 2009, chapter 25). Where nobody is named anew, others have the subject of the clause beside
+theirs: "aunque esté cansada, voy a salir", "si Ana viviera aquí, estaría contenta".
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from itertools import chain
 
+from teo_sign_translator.morphology import Reading
 from teo_sign_translator.pipeline.completeness import CompleteTranslation, PipelineWords
+from teo_sign_translator.pipeline.topic import Topics
 from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.text.source_word import SourceWord
 
 _MAIN = ("V:ind", "V:cond")
+_SUBJUNCTIVE = re.compile(r"V:sub:.*:3s")
+_AMBIGUOUS = re.compile(r"V:(sub|cond|ind:impf)\b.*:3s")
+_SIGNERS = re.compile(r"(V|PRON)\b.*:1s")
+_THIRD = re.compile(r"V:ind:(?!impf).*:3s")
+_COMMAND = re.compile(r"V:(sub:pres|imp):.*3s")
 
 
-def with_other_subjects(
-    words: Sequence[SourceWord], said: CompleteTranslation, language: PipelineWords
-) -> CompleteTranslation:
-    """The same translation, the signer and a third person exchanged where the other one is meant.
+class Subjects:
+    """Reads who does it."""
 
-    Args:
-        words: Of the sentence.
-        said: A translation of it.
-        language: How the language joins clauses and points at persons.
-    """
-    meant = [_meant(words, gloss, language) for gloss in said.glosses]
-    put_back = [[back] * len(each) for each, back in zip(meant, said.put_back, strict=True)]
-    return replace(said, glosses=tuple(chain(*meant)), put_back=tuple(chain(*put_back)))
+    def __init__(self, language: PipelineWords, topics: Topics) -> None:
+        """Take how a language joins clauses and points at persons, and who may do things."""
+        self._who = language.obviation
+        self._experiencer_verbs = language.persons.experiencer_verbs
+        self._of_nobody = language.completeness.of_things | language.obviation.impersonal
+        self._topics = topics
+
+    def read(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """A translation in which the signer and a third person are exchanged where the other one is meant.
+
+        Args:
+            words: Of the sentence.
+            said: A translation of it.
+        """
+        glosses: list[OutputGloss] = []
+        put_back: list[bool] = []
+        left: tuple[int, ...] = ()
+        for place, (gloss, back) in enumerate(zip(said.glosses, said.put_back, strict=True)):
+            own = replace(gloss, sources=tuple(sorted({*gloss.sources, *left}))) if left else gloss
+            others = [each for each in said.glosses if each is not gloss]
+            meant = list(self._meant(words, own, others))
+            is_last = place + 1 == len(said.glosses)
+            left = () if meant or is_last else own.sources
+            meant = meant or [own] * is_last
+            glosses += meant
+            put_back += [back] * len(meant)
+        return replace(said, glosses=tuple(glosses), put_back=tuple(put_back))
+
+    def _meant(
+        self, words: Sequence[SourceWord], gloss: OutputGloss, others: Sequence[OutputGloss]
+    ) -> Iterator[OutputGloss]:
+        """Whom a gloss should point at; nobody where he is named already; who acts and to whom it happens."""
+        who = self._who
+        verb = next((place for place in gloss.sources if _says(words[place].readings, _AMBIGUOUS)), -1)
+        if verb < 0 or gloss.gloss not in (who.signer, who.other):
+            yield gloss
+        elif gloss.gloss == who.other:
+            is_named = any(self._topics.may_do(words[place]) for place in gloss.sources)
+            conceded = not is_named and self._opens(words, verb) in who.concessives
+            yield replace(gloss, gloss=who.signer) if conceded and _has_signers_verb(words) else gloss
+        elif self._is_wished(words, verb):
+            if not any(each.gloss == who.other and verb in each.sources for each in others):
+                yield replace(gloss, gloss=who.other, sources=(verb,))
+            if words[verb - 1].form == who.object:
+                yield replace(gloss, sources=(verb - 1,))
+        elif self._is_beside(words, gloss.sources, _THIRD):
+            yield replace(gloss, gloss=who.other)
+        elif self._is_beside(words, gloss.sources, _COMMAND):
+            return
+        elif not self._is_named(words, gloss.sources, verb):
+            yield gloss
+
+    def _is_beside(
+        self, words: Sequence[SourceWord], sources: Sequence[int], another: re.Pattern[str]
+    ) -> bool:
+        """Whether a clause like "cuando llegue" stands beside a verb that is not the signer's."""
+        verb = sources[0]
+        if len(sources) > 1 or not self._opens(words, verb) or _names_signer(words, sources):
+            return False
+        return any(
+            another.fullmatch(word.readings[0].tag) and word.readings[0].lemma not in self._of_nobody
+            for place, word in enumerate(words)
+            if place != verb and not self._opens(words, place)
+        )
+
+    def _is_named(self, words: Sequence[SourceWord], sources: Sequence[int], verb: int) -> bool:
+        """Whether the subject is who is named in the clause that this one belongs to."""
+        if _says(words[verb].readings[:1], _SUBJUNCTIVE) or _says_signer(words, sources):
+            return False
+        governor = self._governor(words, verb)
+        if governor >= 0:
+            return words[governor].readings[0].tag.endswith(":3s") and not _has_signers_verb(words)
+        if self._opens(words, verb) or _names_signer(words, sources):
+            return False
+        mark = max((place for place, word in enumerate(words[:verb]) if word.is_mark), default=0)
+        beside = words[:mark]
+        named = [place for place, word in enumerate(beside) if self._names(word)]
+        opened = [self._opens(words, place) for place in named]
+        return any(opened) and any(_says(word.readings, _AMBIGUOUS) for word in beside)
+
+    def _names(self, word: SourceWord) -> bool:
+        """Whether a word names somebody, by what it is most likely."""
+        return word.readings[0].tag.startswith(("N:", "NAME")) and self._topics.may_do(word)
+
+    def _opens(self, words: Sequence[SourceWord], place: int) -> str:
+        """The word that opens a clause in which something is done when, if or although; empty for none."""
+        for word in reversed(words[:place]):
+            if word.is_mark or word.readings[0].tag.startswith(_MAIN):
+                return ""
+            if word.form in self._who.adjuncts or word.form in self._who.concessives:
+                return word.form
+        return ""
+
+    def _governor(self, words: Sequence[SourceWord], verb: int) -> int:
+        """The verb whose clause another one's is, joined to it and with nothing between but adverbs; -1."""
+        joiner = next((place for place in range(verb - 1, 0, -1) if words[place].form == self._who.joiner), 0)
+        between = words[joiner + 1 : verb]
+        if not joiner or any(word.is_mark or word.readings[0].tag.startswith(_MAIN) for word in between):
+            return -1
+        if any(self._topics.may_do(word) and word.form != self._who.object for word in between):
+            return -1
+        main = joiner - 2 if words[joiner - 1].form == self._who.link else joiner - 1
+        return main if main >= 0 and words[main].readings[0].tag.startswith((*_MAIN, "V:part")) else -1
+
+    def _is_wished(self, words: Sequence[SourceWord], verb: int) -> bool:
+        """Whether a subjunctive stands alone behind a joiner, and a verb of the signer's governs it."""
+        main = self._governor(words, verb)
+        if main < 0 or not _says(words[verb].readings, _SUBJUNCTIVE):
+            return False
+        reading = words[main].readings[0]
+        feels = main > 0 and words[main - 1].form == self._who.object
+        return reading.tag.endswith(":1s") or (
+            feels and reading.tag.endswith(":3s") and reading.lemma in self._experiencer_verbs
+        )
 
 
-def _meant(words: Sequence[SourceWord], gloss: OutputGloss, language: PipelineWords) -> list[OutputGloss]:
-    """Whom a gloss should point at: one, or who acts and the signer, to whom it happens."""
-    who = language.obviation
-    verb = next((place for place in gloss.sources if _is_ambiguous(words[place])), -1)
-    if verb < 0 or gloss.gloss not in (who.signer, who.other):
-        return [gloss]
-    if gloss.gloss == who.other:
-        own = _is_conceded(words, verb, language) and gloss.sources == (verb,)
-        return [replace(gloss, gloss=who.signer)] if own else [gloss]
-    if not _is_wished(words, verb, language):
-        return [gloss]
-    if words[verb - 1].form != who.object:
-        return [replace(gloss, gloss=who.other)]
-    return [
-        replace(gloss, gloss=who.other, sources=(verb,)),
-        replace(gloss, sources=(verb - 1,)),
-    ]
+def _says(readings: Sequence[Reading], pattern: re.Pattern[str]) -> bool:
+    return any(pattern.fullmatch(reading.tag) for reading in readings)
 
 
-def _is_ambiguous(word: SourceWord) -> bool:
-    return any(_is(reading.tag, ("V:sub",), ":3s") for reading in word.readings)
+def _says_signer(words: Sequence[SourceWord], places: Sequence[int]) -> bool:
+    return any(_says(words[place].readings[:1], _SIGNERS) for place in places)
 
 
-def _is_conceded(words: Sequence[SourceWord], verb: int, language: PipelineWords) -> bool:
-    """Whether a verb's clause begins with a concessive, and the clause beside it says what the signer does."""
-    begin = max((place + 1 for place, word in enumerate(words[:verb]) if word.is_mark), default=0)
-    if words[begin].form not in language.obviation.concessives:
-        return False
-    return any(_is(word.readings[0].tag, _MAIN, ":1s") for word in words)
+def _names_signer(words: Sequence[SourceWord], apart_from: Sequence[int]) -> bool:
+    """Whether a word but some says the signer."""
+    return _says_signer(words, [place for place in range(len(words)) if place not in apart_from])
 
 
-def _is_wished(words: Sequence[SourceWord], verb: int, language: PipelineWords) -> bool:
-    """Whether a subjunctive stands alone behind a joiner, and a verb of the signer's governs it."""
-    who = language.obviation
-    joiner = next((place for place in range(verb - 1, 0, -1) if words[place].form == who.joiner), 0)
-    between = words[joiner + 1 : verb]
-    if not joiner or any(word.is_mark or word.readings[0].tag.startswith(_MAIN) for word in between):
-        return False
-    main = joiner - 2 if words[joiner - 1].form == who.link else joiner - 1
-    if main < 0:
-        return False
-    reading = words[main].readings[0]
-    feels = main > 0 and words[main - 1].form == who.object
-    return _is(reading.tag, _MAIN, ":1s") or (
-        feels and _is(reading.tag, _MAIN, ":3s") and reading.lemma in language.persons.experiencer_verbs
+def _has_signers_verb(words: Sequence[SourceWord]) -> bool:
+    return any(
+        word.readings[0].tag.startswith(_MAIN) and word.readings[0].tag.endswith(":1s") for word in words
     )
-
-
-def _is(tag: str, begins: tuple[str, ...], ends: str) -> bool:
-    return tag.startswith(begins) and tag.endswith(ends)

@@ -22,7 +22,7 @@ from teo_sign_translator.output.translation import Origin
 from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.back_end import TranslatedSentence
 from teo_sign_translator.pipeline.completeness import Completeness, CompleteTranslation, PipelineWords
-from teo_sign_translator.pipeline.obviation import with_other_subjects
+from teo_sign_translator.pipeline.obviation import Subjects
 from teo_sign_translator.pipeline.prepositions import Prepositions
 from teo_sign_translator.pipeline.topic import Topic, Topics
 from teo_sign_translator.pointer import Hypothesis, OutputGloss, SentenceModel
@@ -110,7 +110,7 @@ class PointerBackEnd:
         self._beam_width = beam_width
         self._topics = Topics(morphology.folder)
         self._prepositions = Prepositions(morphology.folder)
-        self._pipeline_words = PipelineWords.load(morphology.folder)
+        self._subjects = Subjects(PipelineWords.load(morphology.folder), self._topics)
 
     @property
     def name(self) -> str:
@@ -154,7 +154,7 @@ class PointerBackEnd:
                 output_words.append(PAUSE)
             said = _as_given(hypotheses, unit.given) or self._completeness.complete(words, hypotheses)
             if not unit.given:
-                said = with_other_subjects(words, self._prepositions.read(words, said), self._pipeline_words)
+                said = self._subjects.read(words, self._prepositions.read(words, said))
                 said = said.without(self._topics.repeated(words, said.glosses))
             unsaid = topic.unsaid(words, said.glosses)
             if not unit.given:

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a preposition means, by the words around it.
 
-"Por" gives a reason ("no fui por la lluvia") or a way ("pasé por tu casa"); "sobre" says what is spoken of ("un
-libro sobre la guerra") or on what something lies ("un libro sobre la mesa"). LSE signs the reason and the place
-above, and nothing for the others.
+"Por" gives a reason ("no fui por la lluvia"), a way ("pasé por tu casa") or who did it ("escrito por mi
+madre"); "sobre" says what is spoken of ("un libro sobre la guerra") or on what something lies ("un libro
+sobre la mesa"). LSE signs the reason and the place above, and nothing for the others.
 """
 
 from __future__ import annotations
@@ -22,6 +22,10 @@ from teo_sign_translator.text.source_word import SourceWord
 _WAYS = frozenset({"place", "building", "room", "body", "time"})
 #: Classes of nouns on which something may lie.
 _BEARERS = frozenset({"furniture", "object", "device", "vehicle", "container", "body", "music", "room"})
+#: Classes on which nothing lies.
+_TOPICS = frozenset({"abstract", "event", "media", "subject", "money", "illness", "time", "document"})
+#: Who may have done what a participle says.
+_AGENTS = frozenset({"person", "family", "profession", "animal", "group"})
 #: Classes on which a thing lies even if it may be about them: a book on the table.
 _SURFACES = frozenset({"furniture", "room"})
 #: What may stand between a preposition and its noun, and between what is spoken of and the preposition.
@@ -58,14 +62,21 @@ class Prepositions:
         return said
 
     def _is_wrong(self, words: Sequence[SourceWord], gloss: OutputGloss) -> bool:
-        if len(gloss.sources) != 1:
+        is_reason = gloss.gloss in self._said.reasons
+        if not is_reason and gloss.gloss != self._said.above:
             return False
-        (place,) = gloss.sources
-        if gloss.gloss in self._said.reasons:
-            behind = self._classes_of(words, _noun_behind(words, place))
-            return words[place].form == self._said.through and not _WAYS.isdisjoint(behind)
-        above = gloss.gloss == self._said.above and words[place].form == self._said.upon
-        return above and self._is_about(words, place)
+        preposition = self._said.through if is_reason else self._said.upon
+        place = next((at for at in gloss.sources if words[at].form == preposition), -1)
+        if place < 0:
+            return False
+        behind = self._classes_of(words, _noun_behind(words, place))
+        if is_reason:
+            is_agent = place > 0 and any(
+                reading.tag.startswith("V:part") for reading in words[place - 1].readings
+            )
+            return not behind.isdisjoint(_WAYS | (_AGENTS if is_agent else frozenset()))
+        is_topic = not _TOPICS.isdisjoint(behind) and _BEARERS.isdisjoint(behind)
+        return is_topic or self._is_about(words, place)
 
     def _is_about(self, words: Sequence[SourceWord], place: int) -> bool:
         """Whether what stands before a preposition can be about something, and not lie on what is behind."""
@@ -100,8 +111,6 @@ class Prepositions:
 
 def _noun_behind(words: Sequence[SourceWord], place: int) -> int:
     """Where the noun of a preposition is; -1 if there is none."""
-    behind = (
-        at for at in range(place + 1, len(words)) if not words[at].readings[0].tag.startswith(_BETWEEN)
-    )
+    behind = (at for at in range(place + 1, len(words)) if not words[at].readings[0].tag.startswith(_BETWEEN))
     noun = next(behind, -1)
     return noun if noun >= 0 and words[noun].readings[0].tag.startswith("N:") else -1

@@ -10,17 +10,18 @@ import pytest
 from loaded import TEXT, read, translator
 
 from teo_sign_translator.pipeline.completeness import CompleteTranslation, PipelineWords
-from teo_sign_translator.pipeline.obviation import with_other_subjects
+from teo_sign_translator.pipeline.obviation import Subjects
+from teo_sign_translator.pipeline.topic import Topics
 from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.text.source_word import SourceWord
 
-WORDS = PipelineWords.load(TEXT)
+SUBJECTS = Subjects(PipelineWords.load(TEXT), Topics(TEXT))
 
 
 def meant(words: Sequence[SourceWord], gloss: str, place: int) -> str:
     """Whom a gloss that a verb's ending says points at."""
     said = CompleteTranslation((OutputGloss(gloss, (place,), 0.6, copied=False),), (False,))
-    return " ".join(each.gloss for each in with_other_subjects(words, said, WORDS).glosses)
+    return " ".join(each.gloss for each in SUBJECTS.read(words, said).glosses)
 
 
 @pytest.mark.parametrize(
@@ -64,6 +65,57 @@ def test_in_what_is_conceded_somebody_else_is_not_meant_unsaid(sentence: str, su
     words = read(sentence)
     place = next(place for place, word in enumerate(words) if word.form in ("esté", "tenga"))
     assert meant(words, "ÉL", place) == subject
+
+
+@pytest.mark.parametrize(
+    ("sentence", "verb", "subject"),
+    [
+        # Beside who is named nobody is pointed at, least of all the signer.
+        ("Si Ana viviera aquí, estaría contenta.", "estaría", ""),
+        ("Si mi padre supiera esto, lloraría.", "lloraría", ""),
+        ("Ana me dijo que tenía hambre.", "tenía", ""),
+        ("Mi padre pensaba que podía ganar.", "podía", ""),
+        # Nobody is named; the verb beside it says that it is somebody else.
+        ("Cuando llegue a casa, se duchará.", "llegue", "ÉL"),
+        ("Cuando sepa la verdad, se va a enfadar.", "sepa", "ÉL"),
+        # Whoever is asked to do something.
+        ("Cuando termine, llámeme.", "termine", ""),
+        ("Cuando llegue a casa, te llamo.", "llegue", "YO"),
+        ("Cuando llegue a casa, me duchará.", "llegue", "YO"),
+        ("Si tuviera dinero, viajaría.", "viajaría", "YO"),
+        ("Si fuera rica, viajaría por toda Asia.", "viajaría", "YO"),
+        ("Si mi padre me viera, lloraría.", "lloraría", "YO"),
+        ("Le dije que tenía hambre.", "tenía", "YO"),
+        ("Dije que mi madre tenía hambre.", "tenía", "YO"),  # a model that says so is not mended here
+        ("Mientras esté aquí, habrá problemas.", "esté", "YO"),
+    ],
+)
+def test_an_ambiguous_verb_has_the_subject_of_the_clause_beside_it(
+    sentence: str, verb: str, subject: str
+) -> None:
+    words = read(sentence)
+    place = next(place for place, word in enumerate(words) if word.form == verb)
+    glosses = (
+        OutputGloss("YO", (place,), 0.6, copied=False),
+        OutputGloss("VERBO", (place,), 0.9, copied=False),
+    )
+    said = SUBJECTS.read(words, CompleteTranslation(glosses, (False, False)))
+    assert [gloss.gloss for gloss in said.glosses] == [*subject.split(), "VERBO"]
+
+
+def test_who_is_named_already_is_not_pointed_at_twice() -> None:
+    words = read("No quiero que me vea.")
+    glosses = (
+        OutputGloss("ÉL", (4,), 0.6, copied=False),
+        OutputGloss("YO", (3, 4), 0.9, copied=False),
+        OutputGloss("VER", (4,), 0.9, copied=False),
+    )
+    said = SUBJECTS.read(words, CompleteTranslation(glosses, (False,) * 3))
+    assert [(gloss.gloss, gloss.sources) for gloss in said.glosses] == [
+        ("ÉL", (4,)),
+        ("YO", (3,)),
+        ("VER", (4,)),
+    ]
 
 
 @pytest.mark.parametrize("sentence", ["Quiero que sea feliz.", "Espero que apruebe el examen."])

@@ -36,12 +36,15 @@ def said(sentence: str, *, model: bool) -> str:
         ("Pasé por tu casa.", "CASA"),
         ("Salió por la gran puerta.", "PUERTA"),
         ("Respira por la nariz.", "NARIZ"),
+        ("Está escrito por mi madre.", "MADRE"),
+        ("Lloró por su madre.", "MOTIVO MADRE"),
         ("Trabaja por la noche.", "NOCHE"),
         ("El gato duerme sobre la mesa.", "GATO ENCIMA MESA"),
         ("Vi un libro sobre la mesa.", "LIBRO ENCIMA MESA"),
         ("Leí un libro sobre la guerra.", "LIBRO GUERRA"),
         ("Leí un libro muy largo sobre coches.", "LIBRO COCHES"),
         ("Hablamos sobre la casa.", "CASA"),
+        ("Me aconsejó sobre la herencia.", "HERENCIA"),
     ],
 )
 def test_a_reason_or_a_place_is_said_only_where_it_is_meant(sentence: str, meant: str) -> None:

@@ -47,8 +47,8 @@ from teo_signs.sign_schema import Provenance
 
 _FINGERS = ("index", "middle", "ring", "little")
 
-# [rad] Knots follow the motion to this, 2 mm at the finger tips of a hand that turns at its wrist: it has lost
-# its trembling, and the hand's way is not to lose more.
+# [rad] Knots follow the motion to this, 2 mm at the finger tips of a hand that turns at its wrist: what
+# trembles is gone by then, and the hand's way is to lose no more.
 _TOLERANCE = np.radians(0.5)
 # [rad] A palm that is farther than this from the person's is worth giving up place and shape for.
 _OUT_OF_REACH = np.radians(20.0)
