@@ -4,8 +4,8 @@
 
 "Quiero que sea feliz" never wishes the signer happy: a subjunctive that "que" joins to a verb has another
 subject than that verb; with the same one it would be an infinitive (disjoint reference; Nueva gramática de
-la lengua española, 2009, chapter 25). Where nobody is named anew, others have the subject of the clause beside
-theirs: "aunque esté cansada, voy a salir", "si Ana viviera aquí, estaría contenta".
+la lengua española, 2009, chapter 25). Where nobody is named anew, others have the subject of the clause
+beside theirs: "aunque esté cansada, voy a salir", "si Ana viviera aquí, estaría contenta".
 """
 
 from __future__ import annotations
