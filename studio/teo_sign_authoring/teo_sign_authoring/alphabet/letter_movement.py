@@ -17,7 +17,7 @@ from scipy.spatial.transform import Rotation
 from teo_common.arrays import Array
 from teo_description.robot import Robot
 from teo_sign_authoring.alphabet.spelling_arm import spelling_bounds
-from teo_sign_authoring.easing.linear_program import DIRECTIONS, LinearProgram
+from teo_sign_authoring.linear_program import DIRECTIONS, LinearProgram
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 
 # [m] The palm's tube. Letters sway by 4 to 20 cm: at 4 mm the smallest lose a fifth, and LL's way agrees with

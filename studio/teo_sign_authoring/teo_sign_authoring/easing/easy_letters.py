@@ -18,7 +18,7 @@ from teo_common.arrays import Array
 from teo_description.robot import Robot
 from teo_sign_authoring.alphabet.spelling_arm import shift_off_face
 from teo_sign_authoring.easing.letter_tolerance import LetterTolerance
-from teo_sign_authoring.easing.linear_program import BEYOND, LinearProgram
+from teo_sign_authoring.linear_program import BEYOND, LinearProgram
 from teo_sign_languages import Alphabet
 from teo_signs.errors import LutError
 from teo_signs.likeness import SEEN_LENGTH, nearest_pairs

@@ -26,8 +26,8 @@ from teo_description.robot import Robot
 from teo_motion.planner import Planner
 from teo_motion.sentence.signing_style import SigningStyle
 from teo_motion.trajectory.limits import MotionLimits
-from teo_sign_authoring.easing.linear_program import BEYOND, LinearProgram
 from teo_sign_authoring.easing.word_tolerance import WordTolerance
+from teo_sign_authoring.linear_program import BEYOND, LinearProgram
 from teo_sign_capture.recognition import SignIndex, distance_between, sign_appearance
 from teo_signs.errors import PlanError
 from teo_signs.sign import Sign, with_alternatives

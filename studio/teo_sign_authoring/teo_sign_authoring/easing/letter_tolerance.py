@@ -23,7 +23,8 @@ from teo_description.hand_geometry import HandGeometry
 from teo_description.robot import Robot
 from teo_sign_authoring.alphabet.letter_likeness import features
 from teo_sign_authoring.alphabet.spelling_arm import spelling_bounds
-from teo_sign_authoring.easing.linear_program import BEND, DIRECTIONS, FOLDED, FOLDED_BEND, TURN
+from teo_sign_authoring.easing.seen_differences import BEND, FOLDED, FOLDED_BEND, TURN
+from teo_sign_authoring.linear_program import DIRECTIONS
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.arm_residuals import ELBOW_UP
 from teo_sign_capture.retarget.knots import least_clearance

@@ -17,7 +17,7 @@ from teo_description.clearance import Contact
 from teo_description.hand_geometry import HandGeometry
 from teo_description.humanoid import SIDES, Side
 from teo_description.robot import Robot
-from teo_sign_authoring.easing.linear_program import DIRECTIONS
+from teo_sign_authoring.linear_program import DIRECTIONS
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, ArmPoses, mirrored, mirrored_hand
 from teo_sign_capture.signing_space import find_place
 from teo_signs.sign import Sign

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The linear programs by which letters and words are eased, one after the other, and tolerances of both.
+"""The linear programs by which letters and words are made quicker, one after the other.
 
 Tolerances are curved, so that programs follow each other, each within a shorter distance of the last
 (sequential linear programming, F. Palacios-Gomez, L. Lasdon, M. Engquist, Management Science 28, 1982).
@@ -26,15 +26,6 @@ BEYOND = 10.0
 # Directions in which a turn or shift is bounded: the faces, edges and corners of a cube.
 DIRECTIONS = np.array([row for row in product((-1.0, 0.0, 1.0), repeat=3) if any(row)])
 DIRECTIONS /= np.linalg.norm(DIRECTIONS, axis=1, keepdims=True)
-
-# [rad] A palm turns by this much about any axis: what is just seen (`teo_signs.likeness`), a third of the
-# 45 deg between a palm to the front and one half to the side.
-TURN = np.radians(15.0)
-# [m] The end of a finger or thumb moves less than is just seen, the thickness of a finger: two thirds of it.
-BEND = 0.010
-# [m], [rad] A finger folded by this much at each joint may open farther: it stays folded, where an extended
-# finger that bends is soon a hooked one.
-FOLDED_BEND, FOLDED = 0.015, np.radians(60.0)
 
 Block = tuple[Sequence[int] | NDArray[np.intp], Array]
 
