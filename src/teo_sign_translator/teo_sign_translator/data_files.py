@@ -148,6 +148,7 @@ def _flag(value: Any) -> bool:
 _READERS: dict[str, Callable[[Any], Any]] = {
     "str": _text,
     "bool": _flag,
+    "float": float,
     "tuple[str, ...]": words_of,
     "tuple[str, str]": _two,
     "frozenset[str]": lambda value: frozenset(words_of(value)),

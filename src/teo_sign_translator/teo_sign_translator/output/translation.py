@@ -75,7 +75,9 @@ class Sentence:
         type: Statement, question or exclamation.
         negated: Whether it holds a negation.
         tokens: At least one.
-        uncertain: Whether its confidence is below the threshold of the translator.
+        uncertain: Whether the confidence of a token is below the threshold of the translator.
+        confidence: How likely it is right as a whole, 0 to 1; that of the least certain token if that is not
+            known.
         dropped: Words of the text, as typed, that no token stands for: articles, prepositions and the like.
     """
 
@@ -84,12 +86,8 @@ class Sentence:
     negated: bool
     tokens: tuple[Token, ...]
     uncertain: bool
+    confidence: float
     dropped: tuple[str, ...] = ()
-
-    @property
-    def confidence(self) -> float:
-        """Of the sentence, 0 to 1: that of its least certain token."""
-        return min(token.confidence for token in self.tokens)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -27,11 +27,13 @@ class TranslatedSentence:
         clauses: At least one.
         output_words: Its output words and pauses, in signing order.
         recognised: Its type as far as the translation tells; counts only if no mark was typed.
+        reliability: How likely it is right as a whole, 0 to 1; None if that is not known.
     """
 
     clauses: Sequence[Clause]
     output_words: Sequence[OutputWord]
     recognised: SentenceType | None
+    reliability: float | None = None
 
 
 class BackEnd(Protocol):

@@ -123,6 +123,27 @@ class PrepositionWords:
 
 
 @dataclass(frozen=True)
+class ReliabilityWeights:
+    """How likely a translation is right; the section `reliability`, as `pipeline/reliability.py` uses it.
+
+    Attributes:
+        base: Of any translation.
+        least: For the least confidence among its glosses.
+        doubt: For each gloss that the model is not sure of.
+        gloss: For each gloss.
+        verb: For each verb of the sentence.
+        adjective: For each adjective.
+    """
+
+    base: float
+    least: float
+    doubt: float
+    gloss: float
+    verb: float
+    adjective: float
+
+
+@dataclass(frozen=True)
 class PipelineWords:
     """All of it.
 
@@ -131,12 +152,14 @@ class PipelineWords:
         persons: Who acts on whom.
         obviation: Who does what a verb says.
         prepositions: Which mean more than one thing.
+        reliability: How likely a translation is right.
     """
 
     completeness: CompletenessWords
     persons: PersonWords
     obviation: ObviationWords
     prepositions: PrepositionWords
+    reliability: ReliabilityWeights
 
     @classmethod
     @cache
@@ -151,6 +174,7 @@ class PipelineWords:
             "persons": PersonWords,
             "obviation": ObviationWords,
             "prepositions": PrepositionWords,
+            "reliability": ReliabilityWeights,
         }
         return cls(**read_sections(folder / _FILE, sections))
 

@@ -18,12 +18,13 @@ from typing import NamedTuple
 from teo_sign_translator.data_files import read_rows
 from teo_sign_translator.morphology import Morphology, Reading, gloss_name
 from teo_sign_translator.output.output_words import PAUSE, OutputWord, carried, lexical, number
-from teo_sign_translator.output.translation import Origin
+from teo_sign_translator.output.translation import Kind, Origin
 from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.back_end import TranslatedSentence
 from teo_sign_translator.pipeline.completeness import Completeness, CompleteTranslation, PipelineWords
 from teo_sign_translator.pipeline.obviation import Subjects
 from teo_sign_translator.pipeline.prepositions import Prepositions
+from teo_sign_translator.pipeline.reliability import features, reliability
 from teo_sign_translator.pipeline.topic import Topic, Topics
 from teo_sign_translator.pointer import Hypothesis, OutputGloss, SentenceModel
 from teo_sign_translator.pointer.vocabulary import copied_gloss
@@ -110,7 +111,9 @@ class PointerBackEnd:
         self._beam_width = beam_width
         self._topics = Topics(morphology.folder)
         self._prepositions = Prepositions(morphology.folder)
-        self._subjects = Subjects(PipelineWords.load(morphology.folder), self._topics)
+        language = PipelineWords.load(morphology.folder)
+        self._subjects = Subjects(language, self._topics)
+        self._weights = language.reliability
 
     @property
     def name(self) -> str:
@@ -162,7 +165,10 @@ class PointerBackEnd:
             output_words += _gloss_output_words(words, said, self._agreement, self._rules.glosses)
             if not unit.given and _asks(words, said.glosses):
                 recognised = SentenceType.WH_QUESTION
-        return TranslatedSentence(unit.clauses, output_words, recognised)
+        sure = [word.confidence for word in output_words if word.kind is not Kind.PAUSE and word.signs]
+        every = [word for words in unit.parts for word in words]
+        likely = reliability(features(every, sure), self._weights) if sure and not unit.given else None
+        return TranslatedSentence(unit.clauses, output_words, recognised, likely)
 
 
 def divided(words: Sequence[SourceWord]) -> list[Sequence[SourceWord]]:

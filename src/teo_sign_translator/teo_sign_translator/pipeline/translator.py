@@ -268,6 +268,7 @@ class Translator:
         chosen = self._chooser.choose(meant, signs)
         typed = [word.text for clause in clauses for word in clause.words]
         output_words = with_numbers_incorporated(chosen, typed, signs, self._incorporated)
+        likely = translated_sentence.reliability
         parts = [number_tokens(part) for part in divide(output_words, MAX_SENTENCE_TOKENS)]
         return [
             Sentence(
@@ -276,6 +277,7 @@ class Translator:
                 negated=is_negated(clauses, self._rules),
                 tokens=tokens,
                 uncertain=any(token.confidence < self.min_confidence for token in tokens),
+                confidence=min(token.confidence for token in tokens) if likely is None else likely,
                 dropped=() if place else dropped,
             )
             for place, tokens in enumerate(parts)

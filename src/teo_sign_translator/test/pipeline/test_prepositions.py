@@ -55,7 +55,7 @@ def test_a_reason_or_a_place_is_said_only_where_it_is_meant(sentence: str, meant
     ("sentence", "meant"),
     [
         ("Dejé las llaves sobre el televisor.", "LLAVES TELEVISOR ENCIMA"),
-        ("Las gafas están sobre el piano.", "GAFAS PIANO ENCIMA"),
+        ("Las gafas quedaron sobre el armario.", "GAFAS ARMARIO ENCIMA"),
         ("Hablamos sobre el televisor.", "TELEVISOR"),
         ("Llegaré sobre las cinco.", ""),
         ("Compré un sobre.", "SOBRE"),
