@@ -113,6 +113,9 @@ class PrepositionWords:
         upon: Preposition of what is spoken of, and of what something lies on.
         above: Gloss of the place above.
         about: Verbs and nouns that are about something.
+        than: Word before what is liked less, which also asks.
+        what: Gloss that asks.
+        preferring: Verbs of liking more.
     """
 
     through: str
@@ -120,6 +123,9 @@ class PrepositionWords:
     upon: str
     above: str
     about: frozenset[str]
+    than: str
+    what: str
+    preferring: frozenset[str]
 
 
 @dataclass(frozen=True)

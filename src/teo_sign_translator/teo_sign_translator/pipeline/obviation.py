@@ -25,6 +25,7 @@ _SUBJUNCTIVE = re.compile(r"V:sub:.*:3s")
 _AMBIGUOUS = re.compile(r"V:(sub|cond|ind:impf)\b.*:3s")
 _SIGNERS = re.compile(r"(V|PRON)\b.*:1s")
 _THIRD = re.compile(r"V:ind:(?!impf).*:3s")
+_ASKING = re.compile(r"V:imp:2.*")
 _COMMAND = re.compile(r"V:(sub:pres|imp):.*3s")
 
 
@@ -45,6 +46,7 @@ class Subjects:
             words: Of the sentence.
             said: A translation of it.
         """
+        said = _with_nobody_first(words, said)
         glosses: list[OutputGloss] = []
         put_back: list[bool] = []
         left: tuple[int, ...] = ()
@@ -64,6 +66,9 @@ class Subjects:
     ) -> Iterator[OutputGloss]:
         """Whom a gloss should point at; nobody where he is named already; who acts and to whom it happens."""
         who = self._who
+        asked = all(_says(words[place].readings[:1], _ASKING) for place in gloss.sources)
+        if gloss.gloss == who.signer and gloss.sources and asked and not self._is_addressed(gloss, others):
+            return  # "mándame": the sign's direction says to whom, and the signer does nothing
         verb = next((place for place in gloss.sources if _says(words[place].readings, _AMBIGUOUS)), -1)
         if verb < 0 or gloss.gloss not in (who.signer, who.other):
             yield gloss
@@ -82,6 +87,12 @@ class Subjects:
             return
         elif not self._is_named(words, gloss.sources, verb):
             yield gloss
+
+    def _is_addressed(self, gloss: OutputGloss, others: Sequence[OutputGloss]) -> bool:
+        """Whether who is asked is pointed at, too: TÚ YO DAR."""
+        return any(
+            other.gloss in self._topics.subjects and {*other.sources} & {*gloss.sources} for other in others
+        )
 
     def _is_beside(
         self, words: Sequence[SourceWord], sources: Sequence[int], another: re.Pattern[str]
@@ -145,6 +156,28 @@ class Subjects:
         return reading.tag.endswith(":1s") or (
             feels and reading.tag.endswith(":3s") and reading.lemma in self._experiencer_verbs
         )
+
+
+def _with_nobody_first(words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+    """The same with nobody, as a subject, before the object: YO EXPLICAR NADIE says another thing."""
+    tags = [
+        words[gloss.sources[0]].readings[0].tag if len(gloss.sources) == 1 else "" for gloss in said.glosses
+    ]
+    for place, (gloss, tag) in enumerate(zip(said.glosses, tags, strict=True)):
+        if tag != "PRON:neg" or not words[gloss.sources[0] + 1 :][:1]:
+            continue
+        if not words[gloss.sources[0] + 1].readings[0].tag.startswith("PRON:obj"):
+            continue
+        objects = [at for at in range(place) if tags[at].startswith("PRON:obj")]
+        if objects:
+            order = list(range(len(tags)))
+            order.insert(objects[0], order.pop(place))
+            return replace(
+                said,
+                glosses=tuple(said.glosses[at] for at in order),
+                put_back=tuple(said.put_back[at] for at in order),
+            )
+    return said
 
 
 def _says(readings: Sequence[Reading], pattern: re.Pattern[str]) -> bool:

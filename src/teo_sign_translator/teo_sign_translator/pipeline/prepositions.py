@@ -62,6 +62,8 @@ class Prepositions:
         return said
 
     def _is_wrong(self, words: Sequence[SourceWord], gloss: OutputGloss) -> bool:
+        if gloss.gloss == self._said.what:
+            return any(self._compares(words, place) for place in gloss.sources)
         is_reason = gloss.gloss in self._said.reasons
         if not is_reason and gloss.gloss != self._said.above:
             return False
@@ -77,6 +79,11 @@ class Prepositions:
             return not behind.isdisjoint(_WAYS | (_AGENTS if is_agent else frozenset()))
         is_topic = not _TOPICS.isdisjoint(behind) and _BEARERS.isdisjoint(behind)
         return is_topic or self._is_about(words, place)
+
+    def _compares(self, words: Sequence[SourceWord], place: int) -> bool:
+        """Whether a word asks nothing, but names what is liked less: "prefiero leer que salir"."""
+        preferred = any(word.readings[0].lemma in self._said.preferring for word in words[:place])
+        return preferred and words[place].form == self._said.than and words[-1].form != "?"
 
     def _is_about(self, words: Sequence[SourceWord], place: int) -> bool:
         """Whether what stands before a preposition can be about something, and not lie on what is behind."""

@@ -118,6 +118,32 @@ def test_who_is_named_already_is_not_pointed_at_twice() -> None:
     ]
 
 
+def test_who_asks_for_something_does_not_do_it() -> None:
+    words = read("Cuando llegues, mándame una foto.")
+    glosses = (OutputGloss("YO", (3,), 0.6, copied=False), OutputGloss("MANDAR", (3,), 0.9, copied=False))
+    said = SUBJECTS.read(words, CompleteTranslation(glosses, (False, False)))
+    assert [gloss.gloss for gloss in said.glosses] == ["MANDAR"]
+
+
+@pytest.mark.parametrize(
+    ("sentence", "expected"),
+    [
+        ("Nadie me lo ha contado.", "NADIE YO CONTAR"),
+        ("No he contado nadie.", "YO CONTAR NADIE"),  # to nobody
+    ],
+)
+def test_nobody_who_does_something_stands_before_whom_it_is_done_to(sentence: str, expected: str) -> None:
+    words = read(sentence)
+    place = {word.form: place for place, word in enumerate(words)}
+    me = place.get("me", place.get("he", 0))
+    glosses = tuple(
+        OutputGloss(gloss, (source,), 0.9, copied=False)
+        for gloss, source in (("YO", me), ("CONTAR", place["contado"]), ("NADIE", place["nadie"]))
+    )
+    said = SUBJECTS.read(words, CompleteTranslation(glosses, (False,) * 3))
+    assert " ".join(gloss.gloss for gloss in said.glosses) == expected
+
+
 @pytest.mark.parametrize("sentence", ["Quiero que sea feliz.", "Espero que apruebe el examen."])
 def test_a_wish_for_somebody_else_points_at_the_signer_once(sentence: str) -> None:
     glosses = str(translator().translate(sentence)).split()

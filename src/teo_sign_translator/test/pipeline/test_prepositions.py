@@ -12,7 +12,7 @@ from teo_sign_translator.pipeline.prepositions import Prepositions
 from teo_sign_translator.pointer import OutputGloss
 
 PREPOSITIONS = Prepositions(TEXT)
-PLACES = {"por": "MOTIVO", "sobre": "ENCIMA"}
+PLACES = {"por": "MOTIVO", "sobre": "ENCIMA", "que": "QUÉ"}
 
 
 def said(sentence: str, *, model: bool) -> str:
@@ -45,6 +45,8 @@ def said(sentence: str, *, model: bool) -> str:
         ("Leí un libro muy largo sobre coches.", "LIBRO COCHES"),
         ("Hablamos sobre la casa.", "CASA"),
         ("Me aconsejó sobre la herencia.", "HERENCIA"),
+        ("Prefiero el tren que el coche.", "TREN COCHE"),
+        ("¿Prefieres que te diga que tren sale?", "QUÉ QUÉ TREN"),
     ],
 )
 def test_a_reason_or_a_place_is_said_only_where_it_is_meant(sentence: str, meant: str) -> None:
