@@ -21,6 +21,7 @@ from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.text.source_word import SourceWord
 
 _MAIN = ("V:ind", "V:cond")
+_OBJECTS = ("PRON:obj", "PRON:refl")
 _SUBJUNCTIVE = re.compile(r"V:sub:.*:3s")
 _AMBIGUOUS = re.compile(r"V:(sub|cond|ind:impf)\b.*:3s")
 _SIGNERS = re.compile(r"(V|PRON)\b.*:1s")
@@ -141,7 +142,9 @@ class Subjects:
         between = words[joiner + 1 : verb]
         if not joiner or any(word.is_mark or word.readings[0].tag.startswith(_MAIN) for word in between):
             return -1
-        if any(self._topics.may_do(word) and word.form != self._who.object for word in between):
+        if any(
+            self._topics.may_do(word) and not word.readings[0].tag.startswith(_OBJECTS) for word in between
+        ):
             return -1
         main = joiner - 2 if words[joiner - 1].form == self._who.link else joiner - 1
         return main if main >= 0 and words[main].readings[0].tag.startswith((*_MAIN, "V:part")) else -1

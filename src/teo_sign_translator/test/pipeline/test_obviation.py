@@ -37,6 +37,9 @@ def meant(words: Sequence[SourceWord], gloss: str, place: int) -> str:
         ("Me pidió que", "viniera mañana", "YO"),
         ("Espero que me", "llame mañana", "ÉL YO"),  # whom it happens to is the signer
         ("Me molesta que", "fume aquí", "ÉL"),
+        ("Quiero que lo", "haga pronto", "ÉL"),
+        ("No quiero que te", "vea nunca", "ÉL"),
+        ("Quiero que Pedro lo", "haga pronto", "YO"),  # a model that says so is not mended here
         ("Ojalá", "sea feliz", "YO"),
         ("Cuando", "sea mayor", "YO"),
         ("Que", "sea feliz", "YO"),
