@@ -7,21 +7,32 @@ How they are compared says `teo_sign_authoring.alphabet.letter_likeness`.
 
 from __future__ import annotations
 
+import numpy as np
+
 from report import Figure
 from teo_description.robot import Robot
+from teo_motion.planner import Planner
 from teo_sign_authoring.alphabet.letter_likeness import Likeness, letter_likenesses
 from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.look_up_table import Lut, default_lut_directory
+from teo_signs.tokens import Kind, Token
 
 
 def measure(language: str = DEFAULT_LANGUAGE, robot: str = "teo") -> list[Figure]:
-    """How many letters are most like their own recording, which are not, and which look alike."""
+    """How long those that move take, which letters are most like their own recording, which look alike."""
     lut = Lut.open(default_lut_directory(language, robot), language=language, robot=robot)
     found = letter_likenesses(Robot.load(robot), lut.language, lut)
     captured = [one for one in found if one.posture == 0]
     # Letters have as many alternatives as were found for them; without one they are as captured.
     played = list({one.letter: one for one in found}.values())
+    planner = Planner(lut, robot=Robot.load(robot))
+    moving = [
+        gloss for gloss, sign in lut.items() if sign.kind == "letter" and np.ptp(sign.knots, axis=0).any()
+    ]
+    plans = [planner.plan([Token(gloss=gloss, kind=Kind.LETTER)]) for gloss in moving]
+    seconds = sum(plan.timings[0].duration for plan in plans)
     return [
+        Figure(f"the {len(moving)} letters that move, together", f"{seconds:.1f} s"),
         Figure("letters most like their own recording, as captured", _count(captured)),
         Figure("letters most like their own recording, in their last alternative", _count(played)),
         *(

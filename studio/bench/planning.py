@@ -11,14 +11,18 @@ import multiprocessing
 import os
 import time
 from contextlib import suppress
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
 from made_signs import random_table
+from thumb_capsules import thumb_gap
 
 from executed_motion import Reached, judged
 from report import Figure, percentiles
 from signs.random_signs import random_tokens
+from teo_description.hand_geometry import hand_table, thumb_gaps
+from teo_description.humanoid import SIDES
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
@@ -32,6 +36,7 @@ _LETTERS = 10
 _WORDS_OF_RANDOM = 6  # of the longest
 _LOOK = 0.002  # [s]: a tenth of the time between two points
 _BATCH = 50  # plans of one random table
+_NEAREST = 3  # moments of a plan at which a library looks at the thumb: those nearest by the table of places
 _OWN = 20  # one batch in so many plans from the package's table: ways round the body take a second each
 _SIGNS, _WORDS, _SCALES = 8, 3, (0.1, 0.5, 1.0, 2.0)
 
@@ -60,7 +65,7 @@ class _Batch(NamedTuple):
 
 def measure(plans: int = 10_000, sentences: int = 200) -> list[Figure]:
     """Times of so many sentences, then the limits of random plans."""
-    figures = [*_times(sentences), _planning_of_random(sentences), _planning_of_letters(sentences // 4)]
+    figures = [*_times(sentences), *_planning_of_random(sentences), _planning_of_letters(sentences // 4)]
     shares = [range(begin, min(begin + _BATCH, plans)) for begin in range(0, plans, _BATCH)]
     with multiprocessing.get_context("spawn").Pool(os.cpu_count()) as pool:
         batches = pool.map(_random_plans, shares, chunksize=4)
@@ -102,18 +107,26 @@ def _times(count: int) -> list[Figure]:
     ]
 
 
-def _planning_of_random(count: int) -> Figure:
-    """The same of sentences of words and letters drawn from the table."""
-    table = Lut.open(default_lut_directory())
-    planner, dice = Planner(table, robot=Robot.load()), np.random.default_rng(3)
-    signs, seconds = dict(table), []
+def _planning_of_random(count: int) -> list[Figure]:
+    """The same of sentences of words and letters drawn from the table, and their thumbs, by a library."""
+    table, robot = Lut.open(default_lut_directory()), Robot.load()
+    planner, dice = Planner(table, robot=robot), np.random.default_rng(3)
+    signs, hand_shapes, seconds, deepest = dict(table), hand_table(robot), [], 0.0
     for _ in range(count):
         tokens = random_tokens(dice, signs, most=_WORDS_OF_RANDOM, scales=(1.0,))
         began = time.process_time()
+        plans = []
         with suppress(PlanError):
-            planner.plan(tokens)
+            plans.append(planner.plan(tokens))
         seconds.append(time.process_time() - began)
-    return percentiles("plan a random sentence", seconds)
+        for plan, side in product(plans, SIDES):
+            axes = plan.positions[:, robot.humanoid.columns(robot.humanoid.hand(side))]
+            nearest = axes[np.argsort(thumb_gaps(hand_shapes, axes))[:_NEAREST]]
+            deepest = max(deepest, *(-thumb_gap(robot, hand, side.capitalize()) for hand in nearest))
+    return [
+        percentiles("plan a random sentence", seconds),
+        Figure(f"deepest thumb in a finger in these {count}", f"{1000.0 * deepest:.1f} mm"),
+    ]
 
 
 def _planning_of_letters(count: int) -> Figure:

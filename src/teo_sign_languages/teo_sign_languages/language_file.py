@@ -105,7 +105,7 @@ class LetterClips(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
         place: Letters whose mean place in the recordings is put where a robot spells; all if empty.
         begins_as: Letters whose hand the recording shows too late, and the letter that they begin as.
         same_palm: Letters that a robot turns as another one where their own palm is out of its reach.
-        same_thumb: Letters whose thumb is hidden in the recording, and the letter that has it seen.
+        same_thumb: Letters of the same hand as another one, whose thumb is fitted to that one's recording.
     """
 
     collection: Code

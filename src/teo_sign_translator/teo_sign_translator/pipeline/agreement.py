@@ -16,7 +16,7 @@ from pathlib import Path
 from teo_sign_translator.data_files import invalid_line, read_rows
 from teo_sign_translator.morphology import Reading
 from teo_sign_translator.morphology.lexicon import nouns
-from teo_sign_translator.pipeline.completeness import PersonWords, PipelineWords
+from teo_sign_translator.pipeline.pipeline_words import PersonWords, PipelineWords
 from teo_sign_translator.text.source_word import SourceWord
 
 _DATIVE, _PERSON, _BODY = "dative", "person", "body"

@@ -21,10 +21,11 @@ from teo_sign_translator.output.output_words import PAUSE, OutputWord, carried, 
 from teo_sign_translator.output.translation import Kind, Origin
 from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.back_end import TranslatedSentence
-from teo_sign_translator.pipeline.completeness import Completeness, CompleteTranslation, PipelineWords
-from teo_sign_translator.pipeline.obviation import Subjects
-from teo_sign_translator.pipeline.prepositions import Prepositions
+from teo_sign_translator.pipeline.completeness import Completeness, CompleteTranslation
+from teo_sign_translator.pipeline.connectives import Connectives
+from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pipeline.reliability import features, reliability
+from teo_sign_translator.pipeline.subjects import Subjects
 from teo_sign_translator.pipeline.topic import Topic, Topics
 from teo_sign_translator.pointer import Hypothesis, OutputGloss, SentenceModel
 from teo_sign_translator.pointer.vocabulary import copied_gloss
@@ -110,7 +111,7 @@ class PointerBackEnd:
         self._agreement = agreement
         self._beam_width = beam_width
         self._topics = Topics(morphology.folder)
-        self._prepositions = Prepositions(morphology.folder)
+        self._connectives = Connectives(morphology.folder)
         language = PipelineWords.load(morphology.folder)
         self._subjects = Subjects(language, self._topics)
         self._weights = language.reliability
@@ -157,7 +158,7 @@ class PointerBackEnd:
                 output_words.append(PAUSE)
             said = _as_given(hypotheses, unit.given) or self._completeness.complete(words, hypotheses)
             if not unit.given:
-                said = self._subjects.read(words, self._prepositions.read(words, said))
+                said = self._subjects.read(words, self._connectives.read(words, said))
                 said = said.without(self._topics.repeated(words, said.glosses))
             unsaid = topic.unsaid(words, said.glosses)
             if not unit.given:

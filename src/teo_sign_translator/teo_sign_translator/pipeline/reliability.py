@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import tanh
 
-from teo_sign_translator.pipeline.completeness import ReliabilityWeights
+from teo_sign_translator.pipeline.pipeline_words import ReliabilityWeights
 from teo_sign_translator.text.source_word import SourceWord
 
 #: A gloss less likely than this is a doubt; the others are as sure as the model can be.

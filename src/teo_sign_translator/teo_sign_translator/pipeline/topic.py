@@ -13,7 +13,7 @@ from pathlib import Path
 
 from teo_sign_translator.morphology import gloss_name
 from teo_sign_translator.morphology.lexicon import nouns
-from teo_sign_translator.pipeline.completeness import PipelineWords
+from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.text.source_word import SourceWord
 

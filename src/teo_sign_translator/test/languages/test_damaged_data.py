@@ -20,7 +20,8 @@ from teo_sign_translator.output.senses import read_senses
 from teo_sign_translator.output.sign_choice import read_incorporated, read_paraphrases, read_synonyms
 from teo_sign_translator.output.sign_coverage import read_signs
 from teo_sign_translator.pipeline.agreement import Agreement
-from teo_sign_translator.pipeline.completeness import FunctionWords, PipelineWords, read_gloss_words
+from teo_sign_translator.pipeline.completeness import FunctionWords, read_gloss_words
+from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.text.rules import Expressions, TextRules
 
 TEXT = load_language("ase").text

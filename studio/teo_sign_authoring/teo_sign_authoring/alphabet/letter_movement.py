@@ -20,21 +20,21 @@ from teo_sign_authoring.alphabet.spelling_arm import spelling_bounds
 from teo_sign_authoring.linear_program import DIRECTIONS, LinearProgram
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 
-# [m] The palm's tube. Letters sway by 4 to 20 cm: at 4 mm the smallest lose a fifth, and LL's way agrees with
-# the recording by .8 instead of .94.
+# [m] The palm's tube. The smallest letters sway by 4 cm; at 4 mm all eleven take a second less together, but
+# LL's way agrees with the recording by .87 instead of .94.
 _SHIFT = 0.003
 # [rad] Turns of the palm: a third of what is just seen.
 _TURN = np.radians(5.0)
 # [rad] A joint of the arm goes no farther, so that an elbow that is free stays where it hangs.
 _ROOM = np.radians(10.0)
-# Seconds at all joints' greatest speeds that a corner costs, over a second of the slowest joint [1]: at 0.1
-# letters have more knots and take as long, at 1 they take longer.
+# Seconds at a joint's greatest speed that a corner costs, over a second of the slowest joint [1]. At 1
+# letters take longer.
 _CORNER = 0.4
 # What a joint's being off where it was captured costs [1], likewise: enough that nothing is off for nothing.
 _OFF = 0.01
 # A corner, by the frames around it.
 _SECOND_DIFFERENCE = ((1, 1.0), (0, -2.0), (-1, 1.0))
-# Programs, each about what the last one found: a third changes nothing.
+# Programs, each about what the last one found: a third makes no letter quicker.
 _ROUNDS = 2
 
 

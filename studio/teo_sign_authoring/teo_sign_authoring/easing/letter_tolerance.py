@@ -23,13 +23,20 @@ from teo_description.hand_geometry import HandGeometry
 from teo_description.robot import Robot
 from teo_sign_authoring.alphabet.letter_likeness import features
 from teo_sign_authoring.alphabet.spelling_arm import spelling_bounds
-from teo_sign_authoring.easing.seen_differences import BEND, FOLDED, FOLDED_BEND, TURN
 from teo_sign_authoring.linear_program import DIRECTIONS
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.arm_residuals import ELBOW_UP
 from teo_sign_capture.retarget.knots import least_clearance
 from teo_signs.sign import Sign
 
+# [rad] A palm turns by this much about any axis: what is just seen (`teo_signs.likeness`), a third of the
+# 45 deg between a palm to the front and one half to the side.
+TURN = np.radians(15.0)
+# [m] The end of a finger or thumb moves less than is just seen, the thickness of a finger: two thirds of it.
+BEND = 0.010
+# [m], [rad] A finger folded by this much at each joint may open farther: it stays folded, where an extended
+# finger that bends is soon a hooked one.
+FOLDED_BEND, FOLDED = 0.015, np.radians(60.0)
 # [m] A letter has no place of its own; it stays within half a hand's length of where the signer made it.
 _SHIFT = 0.08
 # [m] The elbow goes no farther out and up than this, about its own thickness: a person's hangs, and with it

@@ -17,7 +17,7 @@ from scipy.spatial.transform import Rotation
 from teo_common.arrays import Array
 from teo_description.hand_geometry import HandGeometry
 from teo_description.robot import Robot
-from teo_sign_authoring.easing.seen_differences import BEND, FOLDED, FOLDED_BEND, TURN
+from teo_sign_authoring.easing.letter_tolerance import BEND, FOLDED, FOLDED_BEND, TURN
 from teo_sign_authoring.easing.word_arms import ALONG, Rows, WordArms, WordContacts
 from teo_sign_authoring.linear_program import DIRECTIONS
 from teo_sign_capture.retarget.arm_kinematics import ArmPoses, arm_bounds

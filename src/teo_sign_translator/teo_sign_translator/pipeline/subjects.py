@@ -15,7 +15,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from teo_sign_translator.morphology import Reading
-from teo_sign_translator.pipeline.completeness import CompleteTranslation, PipelineWords
+from teo_sign_translator.pipeline.completeness import CompleteTranslation
+from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pipeline.topic import Topics
 from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.text.source_word import SourceWord
@@ -35,9 +36,9 @@ class Subjects:
 
     def __init__(self, language: PipelineWords, topics: Topics) -> None:
         """Take how a language joins clauses and points at persons, and who may do things."""
-        self._who = language.obviation
+        self._who = language.subjects
         self._experiencer_verbs = language.persons.experiencer_verbs
-        self._of_nobody = language.completeness.of_things | language.obviation.impersonal
+        self._of_nobody = language.completeness.of_things | language.subjects.impersonal
         self._topics = topics
 
     def read(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
@@ -53,8 +54,7 @@ class Subjects:
         left: tuple[int, ...] = ()
         for place, (gloss, back) in enumerate(zip(said.glosses, said.put_back, strict=True)):
             own = replace(gloss, sources=tuple(sorted({*gloss.sources, *left}))) if left else gloss
-            others = [each for each in said.glosses if each is not gloss]
-            meant = list(self._meant(words, own, others))
+            meant = list(self._meant(words, own, said.glosses))
             is_last = place + 1 == len(said.glosses)
             left = () if meant or is_last else own.sources
             meant = meant or [own] * is_last
@@ -63,12 +63,12 @@ class Subjects:
         return replace(said, glosses=tuple(glosses), put_back=tuple(put_back))
 
     def _meant(
-        self, words: Sequence[SourceWord], gloss: OutputGloss, others: Sequence[OutputGloss]
+        self, words: Sequence[SourceWord], gloss: OutputGloss, every: Sequence[OutputGloss]
     ) -> Iterator[OutputGloss]:
         """Whom a gloss should point at; nobody where he is named already; who acts and to whom it happens."""
         who = self._who
         asked = all(_says(words[place].readings[:1], _ASKING) for place in gloss.sources)
-        if gloss.gloss == who.signer and gloss.sources and asked and not self._is_addressed(gloss, others):
+        if gloss.gloss == who.signer and gloss.sources and asked and not self._is_addressed(gloss, every):
             return  # "mándame": the sign's direction says to whom, and the signer does nothing
         verb = next((place for place in gloss.sources if _says(words[place].readings, _AMBIGUOUS)), -1)
         if verb < 0 or gloss.gloss not in (who.signer, who.other):
@@ -78,7 +78,7 @@ class Subjects:
             conceded = not is_named and self._opens(words, verb) in who.concessives
             yield replace(gloss, gloss=who.signer) if conceded and _has_signers_verb(words) else gloss
         elif self._is_wished(words, verb):
-            if not any(each.gloss == who.other and verb in each.sources for each in others):
+            if not any(each.gloss == who.other and verb in each.sources for each in every):
                 yield replace(gloss, gloss=who.other, sources=(verb,))
             if words[verb - 1].form == who.object:
                 yield replace(gloss, sources=(verb - 1,))
@@ -89,11 +89,10 @@ class Subjects:
         elif not self._is_named(words, gloss.sources, verb):
             yield gloss
 
-    def _is_addressed(self, gloss: OutputGloss, others: Sequence[OutputGloss]) -> bool:
+    def _is_addressed(self, asking: OutputGloss, every: Sequence[OutputGloss]) -> bool:
         """Whether who is asked is pointed at, too: TÚ YO DAR."""
-        return any(
-            other.gloss in self._topics.subjects and {*other.sources} & {*gloss.sources} for other in others
-        )
+        subjects = self._topics.subjects.keys() - {asking.gloss}
+        return any(gloss.gloss in subjects and {*gloss.sources} & {*asking.sources} for gloss in every)
 
     def _is_beside(
         self, words: Sequence[SourceWord], sources: Sequence[int], another: re.Pattern[str]
@@ -163,24 +162,27 @@ class Subjects:
 
 def _with_nobody_first(words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
     """The same with nobody, as a subject, before the object: YO EXPLICAR NADIE says another thing."""
-    tags = [
-        words[gloss.sources[0]].readings[0].tag if len(gloss.sources) == 1 else "" for gloss in said.glosses
-    ]
-    for place, (gloss, tag) in enumerate(zip(said.glosses, tags, strict=True)):
-        if tag != "PRON:neg" or not words[gloss.sources[0] + 1 :][:1]:
-            continue
-        if not words[gloss.sources[0] + 1].readings[0].tag.startswith("PRON:obj"):
-            continue
-        objects = [at for at in range(place) if tags[at].startswith("PRON:obj")]
-        if objects:
-            order = list(range(len(tags)))
-            order.insert(objects[0], order.pop(place))
-            return replace(
-                said,
-                glosses=tuple(said.glosses[at] for at in order),
-                put_back=tuple(said.put_back[at] for at in order),
-            )
-    return said
+    alone = [gloss.sources[0] if len(gloss.sources) == 1 else -1 for gloss in said.glosses]
+    objects = [at for at, place in enumerate(alone) if place >= 0 and _is(words[place], "PRON:obj")]
+    nobody = (
+        at
+        for at, place in enumerate(alone)
+        if 0 <= place < len(words) - 1 and _is(words[place], "PRON:neg") and _is(words[place + 1], "PRON:obj")
+    )
+    at = next(nobody, -1)
+    if not objects or objects[0] >= at:
+        return said
+    order = list(range(len(alone)))
+    order.insert(objects[0], order.pop(at))
+    return replace(
+        said,
+        glosses=tuple(said.glosses[old] for old in order),
+        put_back=tuple(said.put_back[old] for old in order),
+    )
+
+
+def _is(word: SourceWord, tag: str) -> bool:
+    return word.readings[0].tag.startswith(tag)
 
 
 def _says(readings: Sequence[Reading], pattern: re.Pattern[str]) -> bool:

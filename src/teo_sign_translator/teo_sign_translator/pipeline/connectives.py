@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""What a preposition means, by the words around it.
+"""What a word that connects others means, by the words around it.
 
 "Por" gives a reason ("no fui por la lluvia"), a way ("pasé por tu casa") or who did it ("escrito por mi
 madre"); "sobre" says what is spoken of ("un libro sobre la guerra") or on what something lies ("un libro
-sobre la mesa"). LSE signs the reason and the place above, and nothing for the others.
+sobre la mesa"). LSE signs the reason and the place above, and nothing for the others. "Que" behind
+"prefiero" asks nothing.
 """
 
 from __future__ import annotations
@@ -14,7 +15,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from teo_sign_translator.morphology.lexicon import nouns
-from teo_sign_translator.pipeline.completeness import CompleteTranslation, PipelineWords
+from teo_sign_translator.pipeline.completeness import CompleteTranslation
+from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.text.source_word import SourceWord
 
@@ -34,8 +36,8 @@ _BETWEEN = ("DET", "A:", "NUM", "ADV", "PRON:obj")
 _CONFIDENCE = 0.9
 
 
-class Prepositions:
-    """Reads a language's prepositions."""
+class Connectives:
+    """Reads the words of a language that connect others."""
 
     def __init__(self, folder: Path) -> None:
         """Read a language's text folder.
@@ -43,11 +45,11 @@ class Prepositions:
         Raises:
             TranslationError: "invalid_data" naming file and field.
         """
-        self._said = PipelineWords.load(folder).prepositions
+        self._said = PipelineWords.load(folder).connectives
         self._classes = {noun.lemma: frozenset(noun.classes) for noun in nouns(folder)}
 
     def read(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
-        """A translation without what no preposition means here, and with what one does.
+        """A translation without what no such word means here, and with what one does.
 
         Args:
             words: Of the sentence.

@@ -9,8 +9,9 @@ from collections.abc import Sequence
 import pytest
 from loaded import TEXT, read, translator
 
-from teo_sign_translator.pipeline.completeness import CompleteTranslation, PipelineWords
-from teo_sign_translator.pipeline.obviation import Subjects
+from teo_sign_translator.pipeline.completeness import CompleteTranslation
+from teo_sign_translator.pipeline.pipeline_words import PipelineWords
+from teo_sign_translator.pipeline.subjects import Subjects
 from teo_sign_translator.pipeline.topic import Topics
 from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.text.source_word import SourceWord

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""What a preposition means, as a speaker of Spanish reads the sentence."""
+"""What a word that connects others means, as a speaker of Spanish reads the sentence."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ import pytest
 from loaded import TEXT, read, translator
 
 from teo_sign_translator.pipeline.completeness import CompleteTranslation
-from teo_sign_translator.pipeline.prepositions import Prepositions
+from teo_sign_translator.pipeline.connectives import Connectives
 from teo_sign_translator.pointer import OutputGloss
 
-PREPOSITIONS = Prepositions(TEXT)
+CONNECTIVES = Connectives(TEXT)
 PLACES = {"por": "MOTIVO", "sobre": "ENCIMA", "que": "QUÉ"}
 
 
@@ -24,7 +24,7 @@ def said(sentence: str, *, model: bool) -> str:
         if word.readings[0].tag.startswith("N:") or (model and word.form in PLACES)
     ]
     translation = CompleteTranslation(tuple(glosses), (False,) * len(glosses))
-    return " ".join(gloss.gloss for gloss in PREPOSITIONS.read(words, translation).glosses)
+    return " ".join(gloss.gloss for gloss in CONNECTIVES.read(words, translation).glosses)
 
 
 @pytest.mark.parametrize(

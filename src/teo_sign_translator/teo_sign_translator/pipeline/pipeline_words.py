@@ -1,0 +1,168 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""What completing, inflecting and judging a translation need to know of a language: `pipeline.yaml`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+from teo_sign_translator.data_files import read_sections
+
+_FILE = "pipeline.yaml"
+
+
+@dataclass(frozen=True)
+class CompletenessWords:
+    """What may go without a gloss though it is no function word; the section `completeness`.
+
+    Attributes:
+        goes: Verb that only says the future before an infinitive; empty for none.
+        goes_to: Word between that verb and the infinitive.
+        courtesy: Words of a courtesy, in order; empty for none.
+        courtesy_gloss: The gloss of all of them.
+        of_things: Verbs whose third person is nobody: a pointing gloss is not said for them.
+        unsaid: Glosses of words that the sign language leaves out, however often the model says them.
+    """
+
+    goes: str
+    goes_to: str
+    courtesy: tuple[str, ...]
+    courtesy_gloss: str
+    of_things: frozenset[str]
+    unsaid: frozenset[str]
+
+
+@dataclass(frozen=True)
+class PersonWords:
+    """Who acts on whom, for signs that agree; the section `persons`. Persons are 1, 2 and 3.
+
+    Attributes:
+        objects: Object pronouns with their person.
+        things: Those of the third person that may be things.
+        reflexive: The pronoun that a dative becomes beside one of those.
+        subjects: Subject pronouns with their person.
+        polite: Those of the addressee whose verb is of the third person.
+        towards: Words before the person that something is done to.
+        own_possessive: Possessive that names a third person.
+        own_imperatives: Verbs whose imperative is no form of the third person.
+        experiencer_verbs: Verbs whose object is who feels.
+    """
+
+    objects: dict[str, str]
+    things: frozenset[str]
+    reflexive: str
+    subjects: dict[str, str]
+    polite: frozenset[str]
+    towards: frozenset[str]
+    own_possessive: str
+    own_imperatives: frozenset[str]
+    experiencer_verbs: frozenset[str]
+
+
+@dataclass(frozen=True)
+class SubjectWords:
+    """Who does what a verb says; the section `subjects`. All are empty where its form says who.
+
+    Attributes:
+        joiner: Word that joins a clause in the subjunctive to the verb before it.
+        link: Word that may stand between the two.
+        object: Object pronoun of the signer.
+        signer: Gloss that points at the signer.
+        other: Gloss that points at a third person.
+        concessives: Words that open a clause whose subject is that of the clause beside it: although.
+        adjuncts: Others: when, if.
+        impersonal: Verbs whose third person may be nobody.
+    """
+
+    joiner: str
+    link: str
+    object: str
+    signer: str
+    other: str
+    concessives: frozenset[str]
+    adjuncts: frozenset[str]
+    impersonal: frozenset[str]
+
+
+@dataclass(frozen=True)
+class ConnectiveWords:
+    """Prepositions and "than", which mean more than one thing; the section `connectives`. All may be empty.
+
+    Attributes:
+        through: Preposition of reasons, of ways, and of who did it.
+        reasons: Glosses that give a reason.
+        upon: Preposition of what is spoken of, and of what something lies on.
+        above: Gloss of the place above.
+        about: Verbs and nouns that are about something.
+        than: Word before what is liked less, which also asks.
+        what: Gloss that asks.
+        preferring: Verbs of liking more.
+    """
+
+    through: str
+    reasons: frozenset[str]
+    upon: str
+    above: str
+    about: frozenset[str]
+    than: str
+    what: str
+    preferring: frozenset[str]
+
+
+@dataclass(frozen=True)
+class ReliabilityWeights:
+    """How likely a translation is right; the section `reliability`, as `pipeline/reliability.py` uses it.
+
+    Attributes:
+        base: Of any translation.
+        least: For the least confidence among its glosses.
+        doubt: For each gloss that the model is not sure of.
+        gloss: For each gloss.
+        verb: For each verb of the sentence.
+        adjective: For each adjective.
+    """
+
+    base: float
+    least: float
+    doubt: float
+    gloss: float
+    verb: float
+    adjective: float
+
+
+@dataclass(frozen=True)
+class PipelineWords:
+    """All of it.
+
+    Attributes:
+        completeness: What may go without a gloss.
+        persons: Who acts on whom.
+        subjects: Who does what a verb says.
+        connectives: Which mean more than one thing.
+        reliability: How likely a translation is right.
+    """
+
+    completeness: CompletenessWords
+    persons: PersonWords
+    subjects: SubjectWords
+    connectives: ConnectiveWords
+    reliability: ReliabilityWeights
+
+    @classmethod
+    @cache
+    def load(cls, folder: Path) -> PipelineWords:
+        """Read the file of a language's text folder, once.
+
+        Raises:
+            TranslationError: "invalid_data" naming file and field.
+        """
+        sections = {
+            "completeness": CompletenessWords,
+            "persons": PersonWords,
+            "subjects": SubjectWords,
+            "connectives": ConnectiveWords,
+            "reliability": ReliabilityWeights,
+        }
+        return cls(**read_sections(folder / _FILE, sections))
