@@ -122,6 +122,7 @@ def _sampled(sign: Sign) -> RobotMotion:
         joints=sign.joints,
         positions=positions,
         place_error=unknown,
+        seen_place_error=unknown,
         contact=unknown,
         same_zone=unknown,
         same_zone_of_middle=unknown,

@@ -12,7 +12,8 @@ import { h } from "./dom.js";
 // Heights are those of a robot whose head ends at `TOP`; others have theirs in proportion. `hand` is relative to the
 // hand that moves. The signer's view is from the eyes.
 const CAMERAS = {
-  front: { from: [1.85, 0.0, 0.5], at: [0.0, 0.0, 0.51], view: 32, across: 36 }, // from the hips to the fingers of a raised letter
+  // Eyes as high as the robot's, so that a hand held before the chin is seen there; from the hips to a raised letter.
+  front: { from: [1.85, 0.0, 0.72], at: [0.0, 0.0, 0.51], view: 32, across: 36 },
   hand: { from: [0.46, -0.08, 0.04], at: [0, 0, 0], view: 36 },
   signer: { from: [0.1, 0.0, 0.76], at: [0.5, 0.0, 0.64], view: 85 },
 };

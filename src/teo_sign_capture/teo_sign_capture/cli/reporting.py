@@ -96,7 +96,9 @@ class TerminalReporter:
     def one_of_many(self, outcome: Outcome) -> None:
         """Say how one sign of a folder ended, unless it is listed at the end."""
         if outcome.quality:
-            palm, place = (outcome.quality[name] for name in ("palm_error_p95_deg", "place_error_p95_mm"))
+            palm, place = (
+                outcome.quality[name] for name in ("palm_error_p95_deg", "seen_place_error_p95_mm")
+            )
             words = "; ".join((f"palm {palm:.0f} deg, place {place:.0f} mm", *outcome.warnings))
             self._progress.console.print(f"{outcome.gloss}: {words}", markup=False, soft_wrap=True)
 

@@ -71,11 +71,11 @@ _GATES = (
     ),
     _Gate(
         "place_off",
-        "place_error_p95_mm",
-        210.0,
-        400.0,
+        "seen_place_error_p95_mm",
+        100.0,
+        200.0,
         " mm",
-        "a hand's error of place",
+        "a hand's error of place, as seen from in front,",
         "show it farther before the body and nearer to the middle, where the robot's arms reach",
     ),
     _Gate(

@@ -223,6 +223,7 @@ def _quality(
     fingers = np.array([joint not in robot.humanoid.body_joints for joint in sign.joints])
     figures = {
         "place_error_p95_mm": 1000.0 * usual("place_error"),
+        "seen_place_error_p95_mm": 1000.0 * usual("seen_place_error"),
         **_contact_figure(takes),
         "major_place_wrong": share("wrong_place", np.nanmax),
         "same_zone_percent": 100.0 * share("same_zone", np.nanmin),
@@ -266,7 +267,7 @@ def _worst_moments(take: SignTake, slowest: float) -> dict[str, float]:
     place = np.nan_to_num(motion.place_error)
     frames = {
         "palm_error_p95_deg": np.nan_to_num(motion.palm_error),
-        "place_error_p95_mm": place,
+        "seen_place_error_p95_mm": np.nan_to_num(motion.seen_place_error),
         "contact_error_p95_mm": np.where(motion.contact > _TOUCHING, place, 0.0),
         "major_place_wrong": np.where(motion.wrong_place > 0.0, place, 0.0),
     }

@@ -3,8 +3,9 @@
 """What is wanted of TEO's hands in each frame: where, turned how, and how they are to each other.
 
 The point of the hand that counts is where it meets the body: far from it the middle of the palm, near it what
-is nearest, be it a finger tip at the chin or the palm on the chest; in between and from one to the other it
-goes over smoothly. Likewise two hands that are near each other keep the way from the nearest point of one to
+is nearest, be it a finger tip at the chin or the palm on the chest; of a hand that is seen before the face
+what is nearest to the middle of the face for who watches: a thumb that points at the mouth does so on TEO,
+whose hand is as large as its face. From one to the other it goes over smoothly. Likewise two hands that are near each other keep the way from the nearest point of one to
 the nearest of the other. All is said as for a right hand; a left hand is seen in a mirror.
 
 A person's elbow closes until the hand is at the shoulder, TEO's bends by 100 deg: its wrist stays 35 cm away.
@@ -125,12 +126,19 @@ def _contact(body: BodyMap, head: HeadMotion, points: Array) -> tuple[Array, Arr
         (T, COUNT), (T,).
     """
     away = np.where(np.arange(COUNT) == HEEL, np.inf, body.distance(points, head))
-    nearest = away.min(axis=1)
-    contact = smooth_step((_OFF_BODY - nearest) / (_OFF_BODY - _ON_BODY))
-    touching = np.exp((nearest[:, None] - away) / _BLEND)
-    touching /= touching.sum(axis=1, keepdims=True)
-    shares = contact[:, None] * touching + (1.0 - contact[:, None]) * (np.arange(COUNT) == PALM)
+    contact = smooth_step((_OFF_BODY - away.min(axis=1)) / (_OFF_BODY - _ON_BODY))
+    seen_off = np.linalg.norm((points - head.places[:, None])[..., 1:], axis=2)
+    seen_off[:, HEEL] = np.inf
+    at_face = body.at_face(points, head)[:, None]
+    in_air = at_face * _nearest(seen_off) + (1.0 - at_face) * (np.arange(COUNT) == PALM)
+    shares = contact[:, None] * _nearest(away) + (1.0 - contact[:, None]) * in_air
     return shares, contact
+
+
+def _nearest(away: Array) -> Array:
+    """Shares of points by how far they are off something: of the nearest, and of those beside it. (T, k)."""
+    shares: Array = np.exp((away.min(axis=1, keepdims=True) - away) / _BLEND)
+    return shares / shares.sum(axis=1, keepdims=True)
 
 
 def hand_goals(body: BodyMap, head: HeadMotion, arm: SignerArm, teo: Array) -> tuple[HandGoals, Array]:

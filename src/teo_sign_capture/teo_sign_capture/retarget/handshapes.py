@@ -13,6 +13,7 @@ are the synthetic signer's, those of letters are of who spells in `spoken-to-sig
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
@@ -21,6 +22,7 @@ import numpy as np
 
 from teo_common.arrays import Array
 from teo_description.hand_geometry import HandTable, hand_table, with_clear_thumb
+from teo_description.humanoid import Side
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.hand_motion import (
     THUMB_TIP,
@@ -170,15 +172,36 @@ _HELD = 0.12
 _STEADY = np.radians(6.0)
 
 
-def shape_chances(arm: SignerArm) -> Array:
-    """How sure it is that a person's hand has each of the shapes `SHOWN`, in each frame.
+# Of 668 two-handed signs of the lexicon 472 have the same handshapes on both hands (Battison, "Lexical Borrowing
+# in American Sign Language", 1978: hands that both move do).
+_SHARED = 0.71
+
+
+def shape_chances(arms: Mapping[Side, SignerArm]) -> dict[Side, Array]:
+    """How sure it is that each of a person's hands has each of the shapes `SHOWN`, in each frame.
+
+    Two hands tell of each other: they likely have the same.
 
     Args:
-        arm: The person's, with its hand.
+        arms: The person's, with their hands.
 
     Returns:
-        In all 1, but for the chance that it has none of them. Shape (T, shapes).
+        In all 1, but for the chance that a hand has none of them. Shape (T, shapes) each.
     """
+    alone = {side: _chances(arm) for side, arm in arms.items()}
+    if len(alone) < 2:
+        return alone
+    signs = _person_hands()[1]
+    found = {}
+    for side, other in (("right", "left"), ("left", "right")):
+        own = alone[side] * (1.0 - _SHARED + _SHARED * alone[other] * signs.sum() / signs)
+        none = (1.0 - _SHARED) * (1.0 - alone[side].sum(axis=1, keepdims=True))
+        found[side] = own / (own.sum(axis=1, keepdims=True) + none)
+    return found
+
+
+def _chances(arm: SignerArm) -> Array:
+    """The same of a hand by itself. Shape (T, shapes)."""
     hands, signs = _person_hands()
     tip = (arm.local[:, THUMB_TIP] - arm.local[:, INDEX]) / finger_length(arm)
     apart = ((_features(arm.bends, tip)[:, None] - hands) ** 2).sum(axis=2)
@@ -217,7 +240,7 @@ class ShapedHand(NamedTuple):
     chances: Array
 
 
-def with_known_shapes(robot: Robot, times: Array, arm: SignerArm, motion: HandMotion) -> ShapedHand:
+def with_known_shapes(robot: Robot, times: Array, chances: Array, motion: HandMotion) -> ShapedHand:
     """A robot's hand that has the handshape of the inventory where the person's has.
 
     A robot's thumb cannot lie where a person's lies, on folded fingers say, and one that only seeks the place
@@ -226,10 +249,10 @@ def with_known_shapes(robot: Robot, times: Array, arm: SignerArm, motion: HandMo
     Args:
         robot: The robot.
         times: Of the frames [s]. Shape (T,).
-        arm: The person's, with its hand.
+        chances: How sure each shape of the person's hand is, by `shape_chances`. Shape (T, shapes).
         motion: The hand that follows it.
     """
-    table, chances = hand_table(robot), shape_chances(arm)
+    table = hand_table(robot)
     shapes = np.stack([handshape(robot, name) for name in SHOWN])
     changes = chances @ shapes - chances.sum(axis=1, keepdims=True) * motion.axes
     limits = table.hand.limits

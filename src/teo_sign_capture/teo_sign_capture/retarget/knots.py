@@ -23,13 +23,13 @@ from teo_common.arrays import Array
 from teo_description.humanoid import Humanoid
 from teo_description.robot import Robot
 from teo_motion.trajectory.waypoint_chain import OVERSHOOT, waypoint_states
+from teo_sign_capture.tracks.skeleton_track import smoothed
 
 # [rad] Arms, head, trunk: with all joints of an arm at its edge the hand is 2 cm off.
 BODY_TUBE = np.radians(2.0)
 # [rad] Axes of the hands: half of what handshapes that people tell apart differ by (15 deg, `lut nearest`),
 # and as well as bends are known from keypoints that are 4 mm off.
 FINGER_TUBE = np.radians(8.0)
-
 
 # Relative tolerance of the least squares: accelerations come out a billionth from the least, in the time of
 # an exact search.
@@ -55,7 +55,7 @@ def smoothest_motion(
         return positions.copy()
     bending = _second_differences(times)
     limits = humanoid.limits(joints)
-    radii = share * tube_radii(humanoid, joints)
+    radii = share * _kept_radii(humanoid, times, joints, positions)
     lower = np.maximum(positions - radii, np.minimum(limits.lower, positions))
     upper = np.minimum(positions + radii, np.maximum(limits.upper, positions))
     gentle = positions.copy()
@@ -81,6 +81,21 @@ def smoothest_motion(
 def tube_radii(humanoid: Humanoid, joints: tuple[str, ...]) -> Array:
     """Radius of each joint's tube [rad]. Shape (m,)."""
     return np.array([BODY_TUBE if joint in humanoid.body_joints else FINGER_TUBE for joint in joints])
+
+
+# [s] Standard deviation of the Gaussian that takes trembling away: fingers wag and hook up to 4 times a second.
+_TREMBLE = 0.08
+# [rad] Axis of a finger: what is left of 4 deg of noise stays below, an index that hooks a little does not.
+_MOVES = np.radians(10.0)
+# Of such a movement no more than half is lost from end to end.
+_PART = 0.25
+
+
+def _kept_radii(humanoid: Humanoid, times: Array, joints: tuple[str, ...], positions: Array) -> Array:
+    """Radius of each joint's tube in a motion: less than usual of a finger that moves a little [rad]. (m,)."""
+    usual, way = tube_radii(humanoid, joints), np.ptp(smoothed(times, positions, _TREMBLE), axis=0)
+    kept: Array = np.where(way < _MOVES, usual, np.minimum(usual, np.maximum(_PART * way, BODY_TUBE)))
+    return kept
 
 
 def _second_differences(times: Array) -> Array:

@@ -39,7 +39,13 @@ from teo_sign_capture.retarget.hand_goals import (
     pair_goals,
 )
 from teo_sign_capture.retarget.hand_motion import follow_hand
-from teo_sign_capture.retarget.handshapes import HeldShape, ShapedHand, held_shapes, with_known_shapes
+from teo_sign_capture.retarget.handshapes import (
+    HeldShape,
+    ShapedHand,
+    held_shapes,
+    shape_chances,
+    with_known_shapes,
+)
 from teo_sign_capture.retarget.head_motion import HeadMotion, follow_head, follow_trunk
 from teo_sign_capture.retarget.place_figures import place_figures
 from teo_sign_capture.signing_space import robot_hand_points
@@ -90,10 +96,10 @@ def free_motion(robot: Robot, signer: SignerMotion, *, spelled: bool = False) ->
     chain, table = ArmKinematics(robot), hand_table(robot)
     head = follow_head(robot, signer.head, signer.person)
     body = BodyMap(robot, chain, signer.person)
-    hands = {}
+    hands, chances = {}, shape_chances(signer.arms)
     for side, arm in signer.arms.items():
         seen = follow_hand(table, signer.times, arm)
-        shaped = with_known_shapes(robot, signer.times, arm, seen)
+        shaped = with_known_shapes(robot, signer.times, chances[side], seen)
         hands[side] = shaped._replace(axes=seen.axes) if spelled else shaped
     points = {side: robot_hand_points(table, hand.axes) for side, hand in hands.items()}
     wanted = {side: hand_goals(body, head, arm, points[side]) for side, arm in signer.arms.items()}
@@ -125,6 +131,7 @@ class RobotMotion:
         joints: The m joints that take part: arm and hand of each side that signs; head, trunk if they move.
         positions: Within the limits, clear of the robot's own body [rad]. Shape (T, m).
         place_error: Distance of the hand from where the person's hand belongs on TEO [m].
+        seen_place_error: The same across the view of who stands in front: to the side and up [m].
         contact: How much the person's hand is on the body, 0 to 1.
         palm_error: Angle between the ways the palms face [rad].
         finger_error: Angle between the ways from wrist to knuckles [rad].
@@ -142,6 +149,7 @@ class RobotMotion:
     joints: tuple[str, ...]
     positions: Array
     place_error: Array
+    seen_place_error: Array
     contact: Array
     palm_error: Array
     finger_error: Array
@@ -207,8 +215,10 @@ def _hand_figures(free: FreeMotion, signer: SignerMotion, arms: Array) -> dict[s
     for side, wanted in free.goals.items():
         poses = free.poses(side, arms)
         hand = poses.points(wanted.local)
+        off = hand - wanted.place
         figures: dict[str, Array | NDArray[np.bool_]] = {
-            "place_error": np.linalg.norm(hand - wanted.place, axis=1),
+            "place_error": np.linalg.norm(off, axis=1),
+            "seen_place_error": np.linalg.norm(off[:, 1:], axis=1),
             "palm_error": angles_between(poses.rotation[:, :, 2], wanted.palm),
             "finger_error": angles_between(poses.rotation[:, :, 0], wanted.fingers),
             "flexion_error": free.hands[side].error,

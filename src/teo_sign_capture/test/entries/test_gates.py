@@ -22,7 +22,7 @@ GOOD = {
     "lost_percent": 20.0,
     "palm_error_p95_deg": 45.0,
     "contact_error_p95_mm": 50.0,
-    "place_error_p95_mm": 210.0,
+    "seen_place_error_p95_mm": 100.0,
     "major_place_wrong": 0.1,
     "stretch_times": 6.0,
 }
@@ -39,7 +39,7 @@ def test_a_sign_at_every_limit_is_taken() -> None:
         ("lost_percent", 21.0, "much_lost", 50.0, 51.0),
         ("palm_error_p95_deg", 46.0, "palm_off", 90.0, 91.0),
         ("contact_error_p95_mm", 51.0, "contact_off", 100.0, 101.0),
-        ("place_error_p95_mm", 220.8, "place_off", 400.0, 401.0),
+        ("seen_place_error_p95_mm", 110.8, "place_off", 200.0, 201.0),
         ("major_place_wrong", 0.11, "wrong_place", 0.5, 0.51),
         ("stretch_times", 6.1, "too_slow", 10.0, 10.1),
     ],

@@ -14,7 +14,13 @@ from teo_common.arrays import Array
 from teo_description.hand_geometry import TOUCH, hand_table, thumb_gaps
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.hand_motion import follow_hand
-from teo_sign_capture.retarget.handshapes import ShapedHand, held_shapes, with_known_shapes, written_shape
+from teo_sign_capture.retarget.handshapes import (
+    ShapedHand,
+    held_shapes,
+    shape_chances,
+    with_known_shapes,
+    written_shape,
+)
 from teo_sign_capture.tracks.signer_motion import SignerArm, signer_arm
 
 TIMES = np.arange(45) / 30.0
@@ -37,8 +43,9 @@ def person(bends: Sequence[Bends], tip: tuple[float, float, float], length: floa
 
 def known(robot: Robot, arm: SignerArm) -> tuple[Array, ShapedHand]:
     """Axes that follow the hand alone, and the hand that has known shapes; axes in degrees."""
-    followed = follow_hand(hand_table(robot), TIMES[: len(arm.local)], arm)
-    return np.degrees(followed.axes), with_known_shapes(robot, TIMES[: len(arm.local)], arm, followed)
+    times, chances = TIMES[: len(arm.local)], shape_chances({"right": arm})["right"]
+    followed = follow_hand(hand_table(robot), times, arm)
+    return np.degrees(followed.axes), with_known_shapes(robot, times, chances, followed)
 
 
 @pytest.mark.parametrize(
@@ -62,6 +69,27 @@ def test_a_shape_that_is_seen_badly_is_shown_well(
     off = np.degrees(np.abs(found.axes[22] - written_shape(name)))
     assert off[2:].max() < 10.0
     assert off[:2].max() < 25.0
+
+
+FOLDED = [(70, 80, 40)] * 3
+INDEX_OUT = person([[(5, 8, 5), *FOLDED]] * 45, OVER)
+
+
+def test_a_hand_that_is_seen_badly_has_the_shape_of_the_other(robot: Robot) -> None:
+    """An index that points at the camera looks bent: crooked, if it were alone."""
+    seen_badly = person([[(14, 55, 36), *FOLDED]] * 45, OVER)
+    alone = shape_chances({"left": seen_badly})["left"]
+    beside = shape_chances({"right": INDEX_OUT, "left": seen_badly})
+    (alone_held,), (held,) = held_shapes(TIMES, alone), held_shapes(TIMES, beside["left"])
+    assert (alone_held.name, held.name) == ("hook", "index")
+    assert held_shapes(TIMES, beside["right"])[0].name == "index"
+
+
+def test_hands_that_surely_differ_keep_their_shapes() -> None:
+    flat = person([[(0, 0, 0)] * 4] * 45, BESIDE)
+    found = shape_chances({"right": INDEX_OUT, "left": flat})
+    assert [held_shapes(TIMES, found[side])[0].name for side in ("right", "left")] == ["index", "flat"]
+    assert all((chances.sum(axis=1) <= 1.0 + 1e-9).all() for chances in found.values())
 
 
 def test_a_hand_like_no_other_stays_as_it_is(robot: Robot) -> None:

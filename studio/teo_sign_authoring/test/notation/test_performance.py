@@ -264,7 +264,7 @@ def test_every_handshape_has_a_persons_hand(tmp_path: Path, name: str) -> None:
     assert min((bend for bend, angle_ in zip(bends, robot, strict=True) if angle_ > 70), default=999) > 150
     # It is taken for what it is; three may be for a commoner one that differs little.
     arm = signer_arm("right", np.zeros((1, 3, 3)), hand[None], straight_bends(hand[None]))
-    taken = handshapes.SHOWN[int(handshapes.shape_chances(arm)[0].argmax())]
+    taken = handshapes.SHOWN[int(handshapes.shape_chances({"right": arm})["right"][0].argmax())]
     commoner = {"cupped": "relaxed", "relaxed": "flat", "three_flick": "bunched"}
     assert taken in {name, commoner.get(name, name)}
 
