@@ -3,10 +3,10 @@
 """What is wanted of TEO's hands in each frame: where, turned how, and how they are to each other.
 
 The point of the hand that counts is where it meets the body: far from it the middle of the palm, near it what
-is nearest, be it a finger tip at the chin or the palm on the chest; of a hand that is seen before the face
-what is nearest to the middle of the face for who watches: a thumb that points at the mouth does so on TEO,
-whose hand is as large as its face. From one to the other it goes over smoothly. Likewise two hands that are near each other keep the way from the nearest point of one to
-the nearest of the other. All is said as for a right hand; a left hand is seen in a mirror.
+is nearest, be it a finger tip at the chin or the palm on the chest; before the face what is nearest to its
+middle for who watches: a thumb that points at the mouth does so on TEO, whose hand is as large as its face.
+From one to the other it goes over smoothly. Likewise two hands that are near each other keep the way from the
+nearest point of one to the nearest of the other. All is said as for a right hand; a left one is mirrored.
 
 A person's elbow closes until the hand is at the shoulder, TEO's bends by 100 deg: its wrist stays 35 cm away.
 A hand in the air that belongs nearer is asked for straight before that place (`before_folded_arm`), where it

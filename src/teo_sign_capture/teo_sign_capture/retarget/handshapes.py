@@ -172,8 +172,8 @@ _HELD = 0.12
 _STEADY = np.radians(6.0)
 
 
-# Of 668 two-handed signs of the lexicon 472 have the same handshapes on both hands (Battison, "Lexical Borrowing
-# in American Sign Language", 1978: hands that both move do).
+# Of 668 two-handed signs of the lexicon 472 have the same handshapes on both hands, as have hands that both
+# move (Battison, "Lexical Borrowing in American Sign Language", 1978).
 _SHARED = 0.71
 
 

@@ -83,8 +83,8 @@ def tube_radii(humanoid: Humanoid, joints: tuple[str, ...]) -> Array:
     return np.array([BODY_TUBE if joint in humanoid.body_joints else FINGER_TUBE for joint in joints])
 
 
-# [s] Standard deviation of the Gaussian that takes trembling away: fingers wag and hook up to 4 times a second.
-_TREMBLE = 0.08
+# [s] Standard deviation of the Gaussian that takes trembling away; three quarters of a beat of 3 Hz are left.
+_TREMBLE = 0.04
 # [rad] Axis of a finger: what is left of 4 deg of noise stays below, an index that hooks a little does not.
 _MOVES = np.radians(10.0)
 # Of such a movement no more than half is lost from end to end.
@@ -92,7 +92,7 @@ _PART = 0.25
 
 
 def _kept_radii(humanoid: Humanoid, times: Array, joints: tuple[str, ...], positions: Array) -> Array:
-    """Radius of each joint's tube in a motion: less than usual of a finger that moves a little [rad]. (m,)."""
+    """Radius of each joint's tube, smaller where a finger moves a little [rad]. Shape (m,)."""
     usual, way = tube_radii(humanoid, joints), np.ptp(smoothed(times, positions, _TREMBLE), axis=0)
     kept: Array = np.where(way < _MOVES, usual, np.minimum(usual, np.maximum(_PART * way, BODY_TUBE)))
     return kept

@@ -75,7 +75,7 @@ FOLDED = [(70, 80, 40)] * 3
 INDEX_OUT = person([[(5, 8, 5), *FOLDED]] * 45, OVER)
 
 
-def test_a_hand_that_is_seen_badly_has_the_shape_of_the_other(robot: Robot) -> None:
+def test_a_hand_that_is_seen_badly_has_the_shape_of_the_other() -> None:
     """An index that points at the camera looks bent: crooked, if it were alone."""
     seen_badly = person([[(14, 55, 36), *FOLDED]] * 45, OVER)
     alone = shape_chances({"left": seen_badly})["left"]
