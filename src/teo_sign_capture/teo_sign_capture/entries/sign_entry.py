@@ -248,8 +248,8 @@ def _quality(
 
 
 def _contact_figure(takes: Sequence[SignTake]) -> dict[str, float]:
-    """The error of the place where a hand is on the body; nothing of a sign that touches nothing."""
-    off = [take.motion.place_error[take.motion.contact > _TOUCHING] for take in takes]
+    """The error of the place as seen while a hand is on the body; nothing of a sign that touches nothing."""
+    off = [take.motion.seen_place_error[take.motion.contact > _TOUCHING] for take in takes]
     touching = [errors for errors in off if errors.size]
     if not touching:
         return {}
@@ -264,10 +264,10 @@ def _worst_moments(take: SignTake, slowest: float) -> dict[str, float]:
         slowest: Share of the stroke after which TEO is slowest [1].
     """
     motion = take.motion
-    place = np.nan_to_num(motion.place_error)
+    place = np.nan_to_num(motion.seen_place_error)
     frames = {
         "palm_error_p95_deg": np.nan_to_num(motion.palm_error),
-        "seen_place_error_p95_mm": np.nan_to_num(motion.seen_place_error),
+        "seen_place_error_p95_mm": place,
         "contact_error_p95_mm": np.where(motion.contact > _TOUCHING, place, 0.0),
         "major_place_wrong": np.where(motion.wrong_place > 0.0, place, 0.0),
     }

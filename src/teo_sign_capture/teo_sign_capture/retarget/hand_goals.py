@@ -9,8 +9,8 @@ From one to the other it goes over smoothly. Likewise two hands that are near ea
 nearest point of one to the nearest of the other. All is said as for a right hand; a left one is mirrored.
 
 A person's elbow closes until the hand is at the shoulder, TEO's bends by 100 deg: its wrist stays 35 cm away.
-A hand in the air that belongs nearer is asked for straight before that place (`before_folded_arm`), where it
-is at the same height and side for the person who watches.
+A hand in the air that belongs nearer is asked for before that place (`before_folded_arm`), on the way to the
+eyes of who watches, where it is seen as if it were there.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_description.humanoid import Side
+from teo_description.humanoid import Humanoid, Side
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, arm_bounds
 from teo_sign_capture.retarget.body_map import BodyMap, smooth_step
 from teo_sign_capture.retarget.head_motion import HeadMotion
-from teo_sign_capture.signing_space import COUNT, HEEL, MIRROR, PALM
+from teo_sign_capture.signing_space import COUNT, HEEL, MIRROR, PALM, find_place
 from teo_sign_capture.tracks.signer_motion import SignerArm
 from teo_sign_capture.tracks.skeleton_track import smoothed
 
@@ -44,6 +44,8 @@ _BESIDE, _ASUNDER = 0.15, 0.30
 _STEADY = 0.15
 # Added to how far the right hand is in front: hands of which neither is in front get an order.
 _UNDECIDED = 0.2
+# [m] Who watches stands so far in front, eyes as high as the robot's: where its pictures are taken from.
+_WATCHER = 2.3
 # Where on a forearm, from elbow (0) to wrist (1), distances are measured; elbows stay on their sides.
 _FOREARM = np.linspace(0.3, 0.9, 5)
 
@@ -110,27 +112,30 @@ class PairGoals:
     order: Array
 
 
-def _contact(body: BodyMap, head: HeadMotion, points: Array) -> tuple[Array, Array]:
+def _contact(body: BodyMap, head: HeadMotion, points: Array, together: Array | float) -> tuple[Array, Array]:
     """Find the point of a hand that counts.
 
     The end of the hand at the wrist touches nothing: on an arm that is folded it is near the chest while the
-    hand is held up in the air, as letters are.
+    hand is held up in the air, as letters are. Hands that are at each other before the trunk do not touch it:
+    of 204 signs of the table none does both, and one camera hardly sees how near they are to it.
 
     Args:
         body: The map from the person to TEO.
         head: The heads of both.
         points: Of the person's hand, in the axes of the track [m]. Shape (T, COUNT, 3).
+        together: How much it is at the other hand, 0 to 1. Shape (T,).
 
     Returns:
         Shares of the points in the one that counts, and how much it is on the body, 0 to 1. Shapes
         (T, COUNT), (T,).
     """
     away = np.where(np.arange(COUNT) == HEEL, np.inf, body.distance(points, head))
+    at_face = body.at_face(points, head)
     contact = smooth_step((_OFF_BODY - away.min(axis=1)) / (_OFF_BODY - _ON_BODY))
+    contact *= 1.0 - together * (1.0 - at_face)
     seen_off = np.linalg.norm((points - head.places[:, None])[..., 1:], axis=2)
     seen_off[:, HEEL] = np.inf
-    at_face = body.at_face(points, head)[:, None]
-    in_air = at_face * _nearest(seen_off) + (1.0 - at_face) * (np.arange(COUNT) == PALM)
+    in_air = at_face[:, None] * _nearest(seen_off) + (1.0 - at_face[:, None]) * (np.arange(COUNT) == PALM)
     shares = contact[:, None] * _nearest(away) + (1.0 - contact[:, None]) * in_air
     return shares, contact
 
@@ -141,7 +146,9 @@ def _nearest(away: Array) -> Array:
     return shares / shares.sum(axis=1, keepdims=True)
 
 
-def hand_goals(body: BodyMap, head: HeadMotion, arm: SignerArm, teo: Array) -> tuple[HandGoals, Array]:
+def hand_goals(
+    body: BodyMap, head: HeadMotion, arm: SignerArm, teo: Array, together: Array | float = 0.0
+) -> tuple[HandGoals, Array]:
     """Find what is wanted of a hand.
 
     Args:
@@ -149,12 +156,13 @@ def hand_goals(body: BodyMap, head: HeadMotion, arm: SignerArm, teo: Array) -> t
         head: The heads of both.
         arm: The person's.
         teo: `robot_hand_points` of TEO's hand. Shape (T, COUNT, 3).
+        together: How much it is at the other hand, 0 to 1. Shape (T,).
 
     Returns:
         The goals, and the point of the person's hand whose place counts, in the axes of the track [m], shape
         (T, 3).
     """
-    shares, contact = _contact(body, head, arm.points)
+    shares, contact = _contact(body, head, arm.points, together)
     meant = _mean(shares, arm.points)
     place = body.outside(body.place_with_head(meant[:, None], head)[:, 0])
     flip = MIRROR if arm.side == "left" else np.ones(3)
@@ -231,15 +239,15 @@ def _forearm_and_hand(arm: SignerArm) -> Array:
 
 
 def before_folded_arm(chain: ArmKinematics, goals: HandGoals) -> HandGoals:
-    """The goals of a hand, those in the air that the folded arm has no room for moved forwards.
+    """The goals of a hand, those in the air that the folded arm has no room for moved out of it.
 
     Args:
         chain: The arm.
         goals: What is wanted, as the person has it.
 
     Returns:
-        The same with other places: a wrist that carries the hand as it is wanted is as far from the shoulder
-        as that of the folded arm, or farther.
+        The same with places nearer to who watches: a wrist that carries the hand as it is wanted is as far
+        from the shoulder as that of the folded arm, or farther.
     """
     folded = np.zeros((1, chain.count))
     folded[0, chain.elbow] = arm_bounds(chain.humanoid, "both")[0 if chain.opens > 0.0 else 1][chain.elbow]
@@ -249,12 +257,20 @@ def before_folded_arm(chain: ArmKinematics, goals: HandGoals) -> HandGoals:
     in_palm = pose.rotation[0].T @ (wrist - pose.place[0])
     turns = np.stack([goals.fingers, np.cross(goals.palm, goals.fingers), goals.palm], axis=2)
     wrists = goals.place + np.einsum("tij,tj->ti", turns, in_palm - goals.local)
-    forwards = (1.0 - goals.contact) * _way_out(wrists - chain.shoulder, float(least))
-    return replace(goals, place=goals.place + forwards[:, None] * np.array([1.0, 0.0, 0.0]))
+    ways = to_watcher(chain.humanoid, goals.place)
+    out = (1.0 - goals.contact) * _way_out(wrists - chain.shoulder, ways, float(least))
+    return replace(goals, place=goals.place + out[:, None] * ways)
 
 
-def _way_out(points: Array, radius: float) -> Array:
-    """How far forwards points within a ball about the origin leave it; 0 of those outside [m]. Shape (T,)."""
-    room = radius**2 - (points**2).sum(axis=1)
-    way: Array = np.sqrt(points[:, 0] ** 2 + np.maximum(room, 0.0)) - points[:, 0]
-    return np.where(room > 0.0, way, 0.0)
+def to_watcher(humanoid: Humanoid, places: Array) -> Array:
+    """Ways from places to the eyes of who watches, unit vectors. Shapes (T, 3)."""
+    eyes = np.array([_WATCHER, 0.0, find_place(humanoid, "eye").point[2]])
+    ways: Array = (eyes - places) / np.linalg.norm(eyes - places, axis=1, keepdims=True)
+    return ways
+
+
+def _way_out(points: Array, ways: Array, radius: float) -> Array:
+    """How far on their ways points within a ball about the origin leave it; 0 outside [m]. Shape (T,)."""
+    room, along = radius**2 - (points**2).sum(axis=1), (points * ways).sum(axis=1)
+    out: Array = np.sqrt(along**2 + np.maximum(room, 0.0)) - along
+    return np.where(room > 0.0, out, 0.0)

@@ -37,6 +37,7 @@ from teo_sign_capture.retarget.hand_goals import (
     before_folded_arm,
     hand_goals,
     pair_goals,
+    to_watcher,
 )
 from teo_sign_capture.retarget.hand_motion import follow_hand
 from teo_sign_capture.retarget.handshapes import (
@@ -102,9 +103,10 @@ def free_motion(robot: Robot, signer: SignerMotion, *, spelled: bool = False) ->
         shaped = with_known_shapes(robot, signer.times, chances[side], seen)
         hands[side] = shaped._replace(axes=seen.axes) if spelled else shaped
     points = {side: robot_hand_points(table, hand.axes) for side, hand in hands.items()}
-    wanted = {side: hand_goals(body, head, arm, points[side]) for side, arm in signer.arms.items()}
-    goals = {side: found for side, (found, _) in wanted.items()}
     pair = pair_goals(body, signer.times, signer.arms, points) if len(signer.arms) == 2 else None
+    together = 0.0 if pair is None else pair.nearness
+    wanted = {side: hand_goals(body, head, arm, points[side], together) for side, arm in signer.arms.items()}
+    goals = {side: found for side, (found, _) in wanted.items()}
     problem = ArmProblem(chain, tuple(before_folded_arm(chain, goal) for goal in goals.values()), pair)
     bounds = [arm_bounds(robot.humanoid, side) for side in signer.arms]
     return FreeMotion(
@@ -131,7 +133,7 @@ class RobotMotion:
         joints: The m joints that take part: arm and hand of each side that signs; head, trunk if they move.
         positions: Within the limits, clear of the robot's own body [rad]. Shape (T, m).
         place_error: Distance of the hand from where the person's hand belongs on TEO [m].
-        seen_place_error: The same across the view of who stands in front: to the side and up [m].
+        seen_place_error: The same across the view of who stands in front [m].
         contact: How much the person's hand is on the body, 0 to 1.
         palm_error: Angle between the ways the palms face [rad].
         finger_error: Angle between the ways from wrist to knuckles [rad].
@@ -215,10 +217,10 @@ def _hand_figures(free: FreeMotion, signer: SignerMotion, arms: Array) -> dict[s
     for side, wanted in free.goals.items():
         poses = free.poses(side, arms)
         hand = poses.points(wanted.local)
-        off = hand - wanted.place
+        off, ways = hand - wanted.place, to_watcher(free.body.humanoid, wanted.place)
         figures: dict[str, Array | NDArray[np.bool_]] = {
             "place_error": np.linalg.norm(off, axis=1),
-            "seen_place_error": np.linalg.norm(off[:, 1:], axis=1),
+            "seen_place_error": np.linalg.norm(off - (off * ways).sum(axis=1, keepdims=True) * ways, axis=1),
             "palm_error": angles_between(poses.rotation[:, :, 2], wanted.palm),
             "finger_error": angles_between(poses.rotation[:, :, 0], wanted.fingers),
             "flexion_error": free.hands[side].error,

@@ -125,11 +125,11 @@ def test_a_contact_is_judged_where_the_hand_is_on_the_body_alone(robot: Robot, t
     touching[: frames // 2] = 1.0
     off = np.full((frames, 2), 0.2)
     off[: frames // 2] = 0.02
-    near = replace(take, motion=replace(take.motion, contact=touching, place_error=off))
-    sign = make_sign(robot, "SIGNO", [near], ORIGIN).sign
+    near = replace(take, motion=replace(take.motion, contact=touching, seen_place_error=off))
+    sign = make_sign(robot, "SIGNO", [near], ORIGIN, accept=True).sign
     assert sign.quality["contact_error_p95_mm"] == pytest.approx(20.0)
-    assert sign.quality["place_error_p95_mm"] == pytest.approx(200.0)
-    swapped = replace(take, motion=replace(take.motion, contact=1.0 - touching, place_error=off))
+    assert sign.quality["seen_place_error_p95_mm"] == pytest.approx(200.0)
+    swapped = replace(take, motion=replace(take.motion, contact=1.0 - touching, seen_place_error=off))
     with pytest.raises(LutError, match="200 mm"):
         make_sign(robot, "SIGNO", [swapped], ORIGIN)
 

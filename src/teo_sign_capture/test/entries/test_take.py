@@ -108,5 +108,6 @@ def test_a_hand_too_near_to_its_shoulder_is_at_its_own_place_for_who_watches(rob
     beside = (0.15, -0.30, 0.0)
     motion = capture_take(robot, signing(moves=[(0.5, 1.1, beside), (1.8, 2.4, REST)])).motion
     assert np.nanmax(motion.place_error[:, 0]) > 0.15
+    assert np.nanmax(motion.seen_place_error[:, 0]) < 0.08  # a hand is 9 cm broad
     assert np.nanmean(motion.wrong_place[:, 0]) == 0.0
     assert np.nanmean(motion.same_zone[:, 0]) > 0.9

@@ -49,9 +49,9 @@ class Scene:
         turn = np.array([[0.0, -1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
         self.hand = hand @ turn.T
 
-    def goals(self, hand, side="right"):
+    def goals(self, hand, side="right", together=0.0):
         arm = signer_arm(side, ARM if side == "right" else ARM * MIRROR, hand[None], STRAIGHT)
-        return hand_goals(self.body, self.head, arm, self.teo)[0]
+        return hand_goals(self.body, self.head, arm, self.teo, together)[0]
 
     def pair(self, right, left, joints=None):
         joints = joints or (ARM, ARM * MIRROR)
@@ -83,6 +83,24 @@ def test_a_hand_straight_before_the_chin_is_at_the_face_and_one_before_the_chest
     before = scene.hand - scene.hand[8] + scene.chin + np.array([0.3, 0.0, 0.0])
     assert scene.goals(before).at_face[0] == 1.0
     assert scene.goals(before - np.array([0.0, 0.0, 0.3])).at_face[0] == 0.0
+
+
+def test_before_the_face_what_is_nearest_to_its_middle_counts(scene):
+    """A tip that is seen on the chin, 20 cm before it, as on TEO: not the palm, which is larger there."""
+    pointing = scene.hand @ np.array([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])  # from the right
+    pointing[8] += np.array([0.0, 0.05, 0.0])
+    goals = scene.goals(pointing - pointing[8] + scene.chin + np.array([0.2, -0.02, 0.0]))
+    assert goals.contact[0] == 0.0
+    assert np.linalg.norm(scene.teo[0] - goals.local[0], axis=1).argmin() == INDEX_TIP
+    assert goals.place[0, 2] == pytest.approx(0.640, abs=0.03)
+
+
+def test_hands_at_each_other_before_the_trunk_do_not_touch_it(scene):
+    at_chest = scene.hand - scene.hand.mean(axis=0) + np.array([0.12, 0.0, -0.12])
+    assert scene.goals(at_chest).contact[0] == 1.0
+    assert scene.goals(at_chest, together=1.0).contact[0] == 0.0
+    at_chin = scene.hand - scene.hand[8] + scene.chin
+    assert scene.goals(at_chin, together=1.0).contact[0] == pytest.approx(scene.goals(at_chin).contact[0])
 
 
 def test_from_air_to_contact_nothing_jumps(scene):
@@ -135,7 +153,7 @@ def test_what_an_arm_has_reached_stays_where_it_is(chain):
     assert before_folded_arm(chain, goals).place == pytest.approx(goals.place, abs=1e-9)
 
 
-def test_what_is_too_near_goes_forwards_as_far_as_a_folded_arm_and_a_touch_stays(chain):
+def test_what_is_too_near_goes_towards_who_watches_as_far_as_a_folded_arm_and_a_touch_stays(chain):
     random = np.random.default_rng(1)
     arms = random.uniform(*arm_bounds(load_humanoid(), "both"), (COUNT, 6))
     arms[:, 3] = np.radians(random.uniform(-150.0, -105.0, COUNT))  # as a person's elbow closes
@@ -144,8 +162,10 @@ def test_what_is_too_near_goes_forwards_as_far_as_a_folded_arm_and_a_touch_stays
         before_folded_arm(chain, goals_of(chain, arms, contact=contact)).place - poses.place
         for contact in (0.0, 1.0)
     )
+    # Where it is seen does not change for eyes 2.3 m in front, as high as TEO's.
+    eyes = np.array([2.3, 0.0, 0.723])
     assert (moved[:, 0] > 0.0).all()
-    assert moved[:, 1:] == pytest.approx(0.0, abs=1e-12)
+    assert np.cross(moved, eyes - poses.place) == pytest.approx(0.0, abs=1e-9)
     arms[:, 3] = arm_bounds(load_humanoid(), "both")[0][3]
     folded = np.linalg.norm(chain.poses(arms).origins[:, 5] - chain.shoulder, axis=1)
     wrists = poses.origins[:, 5] + moved
