@@ -18,7 +18,7 @@ band that a sign can be warped in) already exceeds the distance of the best ones
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -233,6 +233,23 @@ def distance_between(shown: Array, sign: Array) -> float:
     # The library counts the diagonal as one.
     warped = dtw_ndim.distance_fast(shown, sign, window=AHEAD + 1)
     return float(warped) / float(np.sqrt(MOMENTS))
+
+
+# [units] By how much the next form is farther than a sign that stands out. Of 54 films whose sign the table
+# holds the first was right in 20 of 21 that did, in 13 of 33 others; of 60 whose sign it does not hold 48 did
+# not.
+_STANDS_OUT = 0.5
+
+
+def stands_out(matches: Sequence[Match]) -> bool:
+    """Whether the first of the nearest signs is surely what was shown; else one of them, or none of the table.
+
+    Names of one motion, which are equally far, count as one.
+    """
+    first = matches[0].distance
+    return any(match.distance > first for match in matches) and all(
+        match.distance == first or match.distance >= first + _STANDS_OUT for match in matches
+    )
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -26,6 +26,7 @@ from teo_sign_capture.recognition import (
     recording_appearance,
     sign_appearance,
     similar_signs,
+    stands_out,
 )
 from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign import Sign
@@ -74,6 +75,14 @@ def test_a_sign_at_another_pace_is_still_itself(
     assert [match.distance for match in found] == sorted(match.distance for match in found)
 
 
+def test_two_names_of_one_motion_stand_out_as_one(index: SignIndex, robot: Robot, table: Lut) -> None:
+    found = index.nearest(sign_appearance(robot, table["TREN"]))
+    assert stands_out(found)
+    again = replace(found[0], gloss="TREN_OTRO_NOMBRE")
+    assert stands_out((found[0], again, *found[1:]))
+    assert not stands_out((found[0], replace(again, distance=found[0].distance + 0.4), *found[1:]))
+
+
 @settings(max_examples=25)
 @given(st.integers(0, 10_000))
 def test_the_bound_leaves_out_none_of_the_nearest(seed: int) -> None:
@@ -104,11 +113,13 @@ def test_a_warped_distance_is_that_of_the_textbook() -> None:
 @pytest.mark.slow
 def test_what_was_captured_of_one_take_is_the_first_for_another(robot: Robot, tmp_path: Path) -> None:
     bags = [write_bag(tmp_path / f"{seed}.mcap", signing(seed=seed, rate=15.0)) for seed in range(2)]
+    assert "none of the table" in run("recognise", bags[1]).output  # before somebody taught it
     captured = run("capture", bags[0], "--gloss", "INVENTADA", "--no-draw")
     assert captured.exit_code == 0, captured.output
     result = run("recognise", bags[1])
     assert result.exit_code == 0, result.output
     assert result.output.split("\n")[1].split()[0] == "INVENTADA"
+    assert "surely INVENTADA" in result.output
     refused = run("recognise", write_bag(tmp_path / "still.mcap", signing(moves=[], rate=15.0)))
     assert refused.exit_code == 1
     assert refused.output.startswith("no_motion")

@@ -55,7 +55,14 @@ def recognise(
     Exit status: 0, 1 if the recording shows no sign (code and reason on standard error), 2 wrong options.
     """
     from teo_description.robot import Robot
-    from teo_sign_capture.recognition import SignIndex, compare, recording_appearance, sign_appearance
+    from teo_sign_capture.recognition import (
+        COUNT,
+        SignIndex,
+        compare,
+        recording_appearance,
+        sign_appearance,
+        stands_out,
+    )
     from teo_sign_capture.recordings.recording import default_cache, open_recording, track_of
     from teo_signs.look_up_table import Lut
 
@@ -78,14 +85,20 @@ def recognise(
             )
             reporter.progress("comparing", 0, len(signs))
             shown = recording_appearance(robot, track, start=start, end=end, handedness=hands)
-            matches = SignIndex.of_signs(robot, signs.values()).nearest(shown, count)
+            nearest = SignIndex.of_signs(robot, signs.values()).nearest(shown, max(count, COUNT))
+        matches, sure = nearest[:count], stands_out(nearest)
         compared = None if meant is None or wanted is None else compare(meant, shown, wanted)
     except (LutError, DescriptionError) as error:
         reporter.failed(None, LutError(error.code, str(error)))
         raise typer.Exit(1) from error
     if as_json:
         found = [asdict(match) for match in matches]
-        told: dict[str, object] = {"code": "recognised", "recording": recording.name, "matches": found}
+        told: dict[str, object] = {
+            "code": "recognised",
+            "recording": recording.name,
+            "matches": found,
+            "sure": sure,
+        }
         if compared is not None:
             told["compared"] = asdict(compared)
         write_json(told, sys.stdout)
@@ -95,6 +108,8 @@ def recognise(
         table.add_row(match.gloss, f"{match.distance:.2f}")
     _output.print(table)
     _output.print("distance: a person's sign is 2 to 4 from its own entry", soft_wrap=True)
+    said = f"surely {matches[0].gloss}" if sure else "none stands out: one of these, or none of the table"
+    _output.print(said, soft_wrap=True)
     if compared is not None:
         parts = ("handshape", "orientation", "place", "movement")
         differences = ", ".join(f"{part} {getattr(compared, part):.2f}" for part in parts)
