@@ -242,7 +242,7 @@ _STANDS_OUT = 0.5
 
 
 def stands_out(matches: Sequence[Match]) -> bool:
-    """Whether the first of the nearest signs is surely what was shown; else one of them, or none of the table.
+    """Whether the first of the nearest signs is surely what was shown; else one of them, or none at all.
 
     Names of one motion, which are equally far, count as one.
     """
