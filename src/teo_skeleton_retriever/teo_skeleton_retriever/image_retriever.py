@@ -145,7 +145,11 @@ class FrameRetriever(Protocol):
 
 
 def make_retriever(
-    parameters: RetrieverParameters, compat: str, compat_options: Sequence[str] = ()
+    parameters: RetrieverParameters,
+    compat: str,
+    compat_options: Sequence[str] = (),
+    *,
+    recorded: bool = False,
 ) -> FrameRetriever:
     """Make what follows people in space.
 
@@ -153,6 +157,7 @@ def make_retriever(
         parameters: Of ours.
         compat: One of `COMPAT_MODES`; another than ours is a plugin.
         compat_options: Of that plugin.
+        recorded: Whether images are of a recording, whose first one counts at once.
 
     Raises:
         RetrieverError: No such mode or option, or the plugin is not installed.
@@ -163,7 +168,7 @@ def make_retriever(
         return cast(FrameRetriever, plugin(RETRIEVER_GROUP, compat)(parameters, compat_options))
     if any(compat_options):
         raise RetrieverError("bad_option", "expected compat with compat_options, got none")
-    return Retriever(parameters)
+    return Retriever(parameters, recorded=recorded)
 
 
 class ImageRetriever:

@@ -23,7 +23,6 @@ from teo_skeleton_retriever.image_retriever import ImageRetriever, Retrieved, no
 from teo_skeleton_retriever.output.messages import skeleton_array
 from teo_skeleton_retriever.output.skeleton_bag import skeleton_bag
 from teo_skeleton_retriever.retriever import Retriever
-from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -124,7 +123,7 @@ def retrieve_recording(
         reader = BagImages(bag, topics, slop=round(slop * 1e9), rectified=rectified)
         skeletons = stack.enter_context(skeleton_bag(out)) if out is not None else None
         if images is None:  # after the input was looked at: to load the detector takes seconds
-            images = ImageRetriever(make_detector("mediapipe"), Retriever(RetrieverParameters()))
+            images = ImageRetriever(make_detector("mediapipe"), Retriever(recorded=True))
             stack.callback(images.close)
         total = sum(bag.counts.get(topic, 0) for topic in topics)
         tally = _Tally()

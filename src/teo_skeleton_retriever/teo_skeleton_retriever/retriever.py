@@ -32,12 +32,12 @@ class Retriever:
     Not safe to share between threads.
     """
 
-    def __init__(self, parameters: RetrieverParameters | None = None) -> None:
-        """Build a retriever that has seen nobody yet."""
+    def __init__(self, parameters: RetrieverParameters | None = None, *, recorded: bool = False) -> None:
+        """Build a retriever that has seen nobody yet; in a recording its first image counts at once."""
         self._parameters = parameters or RetrieverParameters()
         self._lookup = DepthLookup(nearest=self._parameters.min_depth, farthest=self._parameters.max_depth)
         self._signer = SignerChoice(self._parameters.signer_rule, self._parameters.signer_patience)
-        self._tracker = PersonTracker(int(self._parameters.newcomer_images))
+        self._tracker = PersonTracker(int(self._parameters.newcomer_images), recorded=recorded)
         self._people: dict[int, PersonEstimator] = {}
         self._time: float | None = None
 

@@ -21,7 +21,7 @@ IMAGES = 10
 
 def retrieve(bag: Path, keypoints: Path, **options: Any) -> RetrievalReport:
     """Retrieve with keypoints that are known, so that no network runs."""
-    images = ImageRetriever(make_detector("replay", folder=str(keypoints)), Retriever(RetrieverParameters()))
+    images = ImageRetriever(make_detector("replay", folder=str(keypoints)), Retriever(recorded=True))
     return retrieve_recording(bag, images, **options)
 
 
@@ -30,7 +30,7 @@ def test_a_recording_becomes_a_report_and_progress_counts_every_message(bag, key
     report = retrieve(bag, keypoints, on_progress=lambda *progress: told.append(progress))
     assert told == [(i + 1, 3 * IMAGES) for i in range(3 * IMAGES)]
     assert (report.images, report.people, report.left_out, report.complaints) == (IMAGES, 1, {}, ())
-    assert report.images_with_people == IMAGES - (RetrieverParameters().newcomer_images - 1)
+    assert report.images_with_people == IMAGES
     assert report.topics.color == bag_take.COLOR
     assert report.statuses["body"][KeypointStatus.MEASURED] > 0
     assert report.own_time > 0.0

@@ -33,10 +33,10 @@ class _Gate(NamedTuple):
 # Bounds are where right and wrong part in 58 captures, of films and of rendered people, that two judges saw
 # beside the person. The most of each figure, unasked: a fifth of the frames filled in is a beat of a
 # repeated sign that nobody saw; of palms beyond 50 deg half were read as another way, of others one in ten;
-# hands up to 125 mm off, as seen, were read at their place, on the body up to 114 mm, but at the face 50 mm are
-# from chin to nose; four whose major place was wrong in 0.27 to 0.61 of the stroke were read at the right one,
-# for who watches does not see how far in front of the face a hand is; at a sixth of the pace a stroke of half
-# a second lasts three, and reads as several.
+# hands up to 125 mm off, as seen, were read at their place, on the body up to 114 mm, but at the face 50 mm
+# are from chin to nose; four whose major place was wrong in 0.27 to 0.61 of the stroke were read at the right
+# one, for who watches does not see how far in front of the face a hand is; at a sixth of the pace a stroke of
+# half a second lasts three, and reads as several.
 # And with consent: of a hand that is lost in half of the frames more is guessed than seen; at 90 deg the palm
 # faces the next cardinal direction, which is another sign's; 200 mm are as high as a region (face, chest,
 # belly); of contacts and major places what is beyond those that were seen; at a tenth of the pace a mere

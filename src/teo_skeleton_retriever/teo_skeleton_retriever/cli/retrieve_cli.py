@@ -100,8 +100,8 @@ def _retrieve(
     if bag is None and (out or video):
         raise typer.BadParameter("--out and --video are for bags")
     try:
-        chosen = parameters_from_words(parameter or [], detector=detector, one_image=bag is None)
-        retriever = make_retriever(chosen, compat, compat_option or [])
+        chosen = parameters_from_words(parameter or [], detector=detector)
+        retriever = make_retriever(chosen, compat, compat_option or [], recorded=True)
         options = detector_options_from(detector_option or [])
     except RetrieverError as error:
         raise typer.BadParameter(error.sentence) from None

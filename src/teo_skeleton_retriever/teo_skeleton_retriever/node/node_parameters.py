@@ -137,20 +137,17 @@ def detector_options_from(words: Sequence[str]) -> dict[str, object]:
     return options
 
 
-def parameters_from_words(words: Sequence[str], *, detector: str, one_image: bool) -> RetrieverParameters:
+def parameters_from_words(words: Sequence[str], *, detector: str) -> RetrieverParameters:
     """Give the retriever's parameters from words as typed on a command line.
 
     Args:
         words: NAME=VALUE each.
         detector: Name of the one that is used.
-        one_image: Whether there is just one image, in which a person must be taken at first sight.
 
     Raises:
         RetrieverError: A name or a value is wrong, or two do not go together.
     """
     values: dict[str, Value] = {row.name: row.default for row in _RETRIEVER}
-    if one_image:
-        values["newcomer_images"] = 1
     for word in words:
         name, found, text = word.partition("=")
         if not found or name not in values:

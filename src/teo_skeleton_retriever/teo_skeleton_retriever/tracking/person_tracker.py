@@ -61,9 +61,16 @@ class PersonTracker:
     velocity while they are hidden, and is looked for in a growing ball.
     """
 
-    def __init__(self, newcomer_images: int = 3) -> None:
-        """Know nobody yet; with fewer images before an id is given flickers of the detector become people."""
+    def __init__(self, newcomer_images: int = 3, *, recorded: bool = False) -> None:
+        """Know nobody yet.
+
+        Args:
+            newcomer_images: Before an id is given; with fewer flickers of the detector become people.
+            recorded: Whether who is in the first image of all gets one at once: recordings begin with whom
+                they are of.
+        """
         self._newcomer_images = newcomer_images
+        self._recorded = recorded
         self._people: dict[int, TrackedPerson] = {}
         self._newcomers: list[TrackedPerson] = []
         self._next_id = 0
@@ -91,6 +98,7 @@ class PersonTracker:
         """
         if not math.isfinite(time):
             raise RetrieverError("bad_time", f"expected a finite time [s], got {time}")
+        needed = 1 if self._recorded and self._time == -math.inf else self._newcomer_images
         if time < self._time:
             self._people, self._newcomers = {}, []
         self._time = time
@@ -110,7 +118,7 @@ class PersonTracker:
             if i not in trials and self._taken(time, places[0]):
                 continue
             newcomer = self._moved(trials[i], time, places) if i in trials else _newcomer(time, places[0])
-            ids[i] = self._admit(newcomer)
+            ids[i] = self._admit(newcomer, needed)
         return ids
 
     def _forget(self, time: float) -> None:
@@ -163,8 +171,8 @@ class PersonTracker:
             images=person.images + 1,
         )
 
-    def _admit(self, newcomer: TrackedPerson) -> int | None:
-        if newcomer.images < self._newcomer_images:
+    def _admit(self, newcomer: TrackedPerson, needed: int) -> int | None:
+        if newcomer.images < needed:
             self._newcomers.append(newcomer)
             return None
         person_id = self._next_id

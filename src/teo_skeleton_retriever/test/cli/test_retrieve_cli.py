@@ -170,10 +170,17 @@ def test_people_whom_no_depth_places_are_told_with_the_likely_cause(tmp_path, se
     assert cause in stderr
 
 
-def test_a_newcomers_trial_can_be_set_and_a_recording_shorter_than_it_says_so(bag, tmp_path, seen):
-    _, stdout, _ = run(bag, "--json", "-p", "newcomer_images=5", *seen)
-    people = [len(json.loads(line)["skeletons"]) for line in stdout.splitlines()]
-    assert people == [0] * 4 + [1] * (IMAGES - 4)
+def test_who_begins_a_recording_counts_at_once_and_who_enters_after_a_trial_that_can_be_set(
+    bag, keypoints, tmp_path, seen
+):
+    def people(*options):
+        _, stdout, _ = run(bag, "--json", *options, *seen)
+        return [len(json.loads(line)["skeletons"]) for line in stdout.splitlines()]
+
+    assert people("-p", "newcomer_images=5") == [1] * IMAGES
+    first = min(keypoints.glob("*.json"))
+    first.write_text(json.dumps({"version": 1.3, "people": []}))
+    assert people("-p", "newcomer_images=5") == [0] * 5 + [1] * (IMAGES - 5)
     short = bag_take.write_ros2(tmp_path / "short", list(bag_take.messages(2)))
     code, _, stderr = run(short, *seen)
     assert (code, "-p newcomer_images=1" in stderr) == (1, True)

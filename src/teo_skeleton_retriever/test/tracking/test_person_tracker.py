@@ -53,6 +53,15 @@ def test_someone_who_walks_on_while_hidden_keeps_their_id() -> None:
     assert kept(walk(walking, line((0, 0, 1.5), (0, 0, 1.5))))
 
 
+def test_who_is_in_the_first_image_of_a_recording_is_a_person_and_who_enters_is_on_trial() -> None:
+    there, enters = line((0, 0, 1.5), (0, 0, 1.5), 10), line((1, 0, 2.0), (1, 0, 2.0), 10)
+    enters[0] = None
+    for recorded, first in ((True, [0, None]), (False, [None, None])):
+        ids = walk(there, enters, tracker=PersonTracker(recorded=recorded))
+        assert ids[0] == first
+        assert [found[1] is None for found in ids] == [True] * 3 + [False] * 7
+
+
 def test_who_returns_within_the_memory_is_who_they_were_and_later_is_new() -> None:
     for gap, same in ((2.5, True), (3.5, False)):
         tracker = PersonTracker(AT_ONCE)
