@@ -82,8 +82,8 @@ class RetrieverParameters:
         "",
         1,
         30,
-        "Images in which someone must be seen to become a person: flickers of the detector do not; in a "
-        "recording who is in the first image does at once.",
+        "Images in which someone must be seen to become a person: flickers of the detector do not; a "
+        "recording's first image counts at once.",
     )
     signer_rule: str = _choice(
         "nearest",
