@@ -142,8 +142,9 @@ def _contact(body: BodyMap, head: HeadMotion, points: Array, together: Array | f
 
 def _nearest(away: Array) -> Array:
     """Shares of points by how far they are off something: of the nearest, and of those beside it. (T, k)."""
-    shares: Array = np.exp((away.min(axis=1, keepdims=True) - away) / _BLEND)
-    return shares / shares.sum(axis=1, keepdims=True)
+    near = np.exp((away.min(axis=1, keepdims=True) - away) / _BLEND)
+    shares: Array = near / near.sum(axis=1, keepdims=True)
+    return shares
 
 
 def hand_goals(

@@ -191,12 +191,15 @@ def shape_chances(arms: Mapping[Side, SignerArm]) -> dict[Side, Array]:
     alone = {side: _chances(arm) for side, arm in arms.items()}
     if len(alone) < 2:
         return alone
+    return {"right": _beside(alone["right"], alone["left"]), "left": _beside(alone["left"], alone["right"])}
+
+
+def _beside(chances: Array, other: Array) -> Array:
+    """Chances of a hand by what is known of the other. Shapes (T, shapes)."""
     signs = _person_hands()[1]
-    found = {}
-    for side, other in (("right", "left"), ("left", "right")):
-        own = alone[side] * (1.0 - _SHARED + _SHARED * alone[other] * signs.sum() / signs)
-        none = (1.0 - _SHARED) * (1.0 - alone[side].sum(axis=1, keepdims=True))
-        found[side] = own / (own.sum(axis=1, keepdims=True) + none)
+    shares = chances * (1.0 - _SHARED + _SHARED * other * signs.sum() / signs)
+    none = (1.0 - _SHARED) * (1.0 - chances.sum(axis=1, keepdims=True))
+    found: Array = shares / (shares.sum(axis=1, keepdims=True) + none)
     return found
 
 
