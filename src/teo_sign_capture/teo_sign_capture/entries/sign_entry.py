@@ -169,14 +169,14 @@ def _provenance(robot: Robot, origin: Origin, takes: Sequence[SignTake], combine
     take = takes[combined.leader]
     gaps = [gap for index in combined.used for gap in takes[index].gaps]
     filled = "; ".join(f"{gap.part.replace('_', ' ')} {gap.start:.2f} to {gap.end:.2f} s" for gap in gaps)
-    away = float(np.nanmax(take.motion.place_error))
+    away = float(np.nanmax(take.motion.seen_place_error))
     held = [side for side in take.span.held if take.span.handedness not in (side, "both")]
     notes = (
         combined.reason if len(takes) > 1 else "",
         f"Lost and filled in: {filled}." if filled else "",
         _said_shapes(take.motion.handshapes),
         f"The {held[0]} hand is held up, does nothing and is left out: --hands both." if held else "",
-        f"A hand is up to {100.0 * away:.0f} cm from where it belongs." if away > _SAID_OUT_OF_REACH else "",
+        f"A hand is seen up to {100.0 * away:.0f} cm off its place." if away > _SAID_OUT_OF_REACH else "",
         origin.notes,
     )
     return Provenance(
