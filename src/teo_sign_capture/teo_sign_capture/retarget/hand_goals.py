@@ -9,8 +9,8 @@ From one to the other it goes over smoothly. Likewise two hands that are near ea
 nearest point of one to the nearest of the other. All is said as for a right hand; a left one is mirrored.
 
 A person's elbow closes until the hand is at the shoulder, TEO's bends by 100 deg: its wrist stays 35 cm away.
-A hand in the air that belongs nearer is asked for before that place (`before_folded_arm`), on the way to the
-eyes of who watches, where it is seen as if it were there.
+A hand that belongs nearer is asked for before that place (`before_folded_arm`), on the way to the eyes of who
+watches, where it is seen as if it were there: far before it in the air, a little on the trunk.
 """
 
 from __future__ import annotations
@@ -44,6 +44,9 @@ _BESIDE, _ASUNDER = 0.15, 0.30
 _STEADY = 0.15
 # Added to how far the right hand is in front: hands of which neither is in front get an order.
 _UNDECIDED = 0.2
+# [m] A hand on the trunk that the folded arm has no room for is held up to a hand's breadth before it rather
+# than turned away; less than the other below the shoulders it is touched all the same, as the throat is.
+_BEFORE, _LOW = 0.10, 0.10
 # [m] Who watches stands so far in front, eyes as high as the robot's: where its pictures are taken from.
 _WATCHER = 2.3
 # Where on a forearm, from elbow (0) to wrist (1), distances are measured; elbows stay on their sides.
@@ -240,15 +243,15 @@ def _forearm_and_hand(arm: SignerArm) -> Array:
 
 
 def before_folded_arm(chain: ArmKinematics, goals: HandGoals) -> HandGoals:
-    """The goals of a hand, those in the air that the folded arm has no room for moved out of it.
+    """The goals of a hand, those that the folded arm has no room for moved out of it.
 
     Args:
         chain: The arm.
         goals: What is wanted, as the person has it.
 
     Returns:
-        The same with places nearer to who watches: a wrist that carries the hand as it is wanted is as far
-        from the shoulder as that of the folded arm, or farther.
+        The same with places nearer to who watches: a wrist that carries a hand in the air as it is wanted is
+        as far from the shoulder as that of the folded arm, or farther.
     """
     folded = np.zeros((1, chain.count))
     folded[0, chain.elbow] = arm_bounds(chain.humanoid, "both")[0 if chain.opens > 0.0 else 1][chain.elbow]
@@ -259,7 +262,9 @@ def before_folded_arm(chain: ArmKinematics, goals: HandGoals) -> HandGoals:
     turns = np.stack([goals.fingers, np.cross(goals.palm, goals.fingers), goals.palm], axis=2)
     wrists = goals.place + np.einsum("tij,tj->ti", turns, in_palm - goals.local)
     ways = to_watcher(chain.humanoid, goals.place)
-    out = (1.0 - goals.contact) * _way_out(wrists - chain.shoulder, ways, float(least))
+    out = _way_out(wrists - chain.shoulder, ways, float(least))
+    low = smooth_step((chain.shoulder[2] - goals.place[:, 2]) / _LOW)
+    out = (1.0 - goals.contact) * out + goals.contact * low * np.minimum(out, _BEFORE)
     return replace(goals, place=goals.place + out[:, None] * ways)
 
 
