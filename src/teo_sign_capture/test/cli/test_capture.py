@@ -35,7 +35,7 @@ def test_a_capture_says_what_it_made_and_how_well(bag: Path, tmp_path: Path) -> 
     for words in ("SIGNO: right", "palm error p95", "stretch", "Teacher_A.", f"wrote {table / 'SIGNO.png'}"):
         assert words in result.output
     (palm,) = (row for row in result.output.splitlines() if "palm error p95" in row)
-    assert palm.split()[-4:] == ["good:", "at", "most", "45"]
+    assert palm.split()[-4:] == ["good:", "at", "most", "50"]
     assert "same zone of middle" in result.output
     assert (table / "SIGNO.png").is_file()
     assert run(f"validate {table}").exit_code == 0
