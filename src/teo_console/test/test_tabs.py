@@ -53,7 +53,7 @@ def test_a_sign_is_filmed_looked_at_accepted_and_signed_and_then_practised(
         scene.running = True
         expect(page.locator(".gate.passed, .gate.failed")).to_have_count(7)  # no contact, no gate of contacts
         place = page.locator("[data-gate=place_off]")
-        expect(place).to_contain_text(re.compile(r"hasta a \d+ cm de su sitio"))
+        expect(place).to_contain_text(re.compile(r"hasta a \d+(,\d)? cm de su sitio"))
         place.get_by_role("button", name="Lo peor").click()
         expect(page.locator(".side-by-side video")).to_have_js_property("paused", True)
         expect(page.locator(".similar li")).to_have_count(5)
