@@ -25,7 +25,7 @@ from teo_description.humanoid import Humanoid, Side
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, arm_bounds
 from teo_sign_capture.retarget.body_map import BodyMap, smooth_step
 from teo_sign_capture.retarget.head_motion import HeadMotion
-from teo_sign_capture.signing_space import COUNT, HEEL, MIRROR, PALM, find_place
+from teo_sign_capture.signing_space import COUNT, HEEL, MIRROR, PALM
 from teo_sign_capture.tracks.signer_motion import SignerArm
 from teo_sign_capture.tracks.skeleton_track import smoothed
 
@@ -47,8 +47,6 @@ _UNDECIDED = 0.2
 # [m] A hand on the trunk that the folded arm has no room for is held up to a hand's breadth before it rather
 # than turned away; less than the other below the shoulders it is touched all the same, as the throat is.
 _BEFORE, _LOW = 0.10, 0.10
-# [m] Who watches stands so far in front, eyes as high as the robot's: where its pictures are taken from.
-_WATCHER = 2.3
 # Where on a forearm, from elbow (0) to wrist (1), distances are measured; elbows stay on their sides.
 _FOREARM = np.linspace(0.3, 0.9, 5)
 
@@ -115,7 +113,9 @@ class PairGoals:
     order: Array
 
 
-def _contact(body: BodyMap, head: HeadMotion, points: Array, together: Array | float) -> tuple[Array, Array]:
+def _contact(
+    body: BodyMap, head: HeadMotion, points: Array, at_face: Array, together: Array | float
+) -> tuple[Array, Array]:
     """Find the point of a hand that counts.
 
     The end of the hand at the wrist touches nothing: on an arm that is folded it is near the chest while the
@@ -126,6 +126,7 @@ def _contact(body: BodyMap, head: HeadMotion, points: Array, together: Array | f
         body: The map from the person to TEO.
         head: The heads of both.
         points: Of the person's hand, in the axes of the track [m]. Shape (T, COUNT, 3).
+        at_face: How much it is at the face for who watches, 0 to 1. Shape (T,).
         together: How much it is at the other hand, 0 to 1. Shape (T,).
 
     Returns:
@@ -133,7 +134,6 @@ def _contact(body: BodyMap, head: HeadMotion, points: Array, together: Array | f
         (T, COUNT), (T,).
     """
     away = np.where(np.arange(COUNT) == HEEL, np.inf, body.distance(points, head))
-    at_face = body.at_face(points, head)
     contact = smooth_step((_OFF_BODY - away.min(axis=1)) / (_OFF_BODY - _ON_BODY))
     contact *= 1.0 - together * (1.0 - at_face)
     seen_off = np.linalg.norm((points - head.places[:, None])[..., 1:], axis=2)
@@ -166,7 +166,8 @@ def hand_goals(
         The goals, and the point of the person's hand whose place counts, in the axes of the track [m], shape
         (T, 3).
     """
-    shares, contact = _contact(body, head, arm.points, together)
+    at_face = body.at_face(arm.points, head)
+    shares, contact = _contact(body, head, arm.points, at_face, together)
     meant = _mean(shares, arm.points)
     place = body.outside(body.place_with_head(meant[:, None], head)[:, 0])
     flip = MIRROR if arm.side == "left" else np.ones(3)
@@ -180,7 +181,7 @@ def hand_goals(
         fingers=arm.axes[:, :, 0],
         upper_arm=limbs[:, 0],
         fore_arm=limbs[:, 1],
-        at_face=body.at_face(arm.points, head),
+        at_face=at_face,
     )
     return goals, meant
 
@@ -211,8 +212,7 @@ def _shares(right: Array, left: Array) -> tuple[Array, Array, Array]:
     """Shares of points in the nearest of each side to the other, shapes (T, k), and their distance (T,)."""
     away = np.linalg.norm(right[:, :, None] - left[:, None], axis=3)
     nearest = away.min(axis=(1, 2))
-    shares = np.exp((nearest[:, None, None] - away) / _BLEND)
-    shares /= shares.sum(axis=(1, 2), keepdims=True)
+    shares = _nearest(away.reshape(len(away), -1)).reshape(away.shape)
     return shares.sum(axis=2), shares.sum(axis=1), nearest
 
 
@@ -269,10 +269,10 @@ def before_folded_arm(chain: ArmKinematics, goals: HandGoals) -> HandGoals:
 
 
 def to_watcher(humanoid: Humanoid, places: Array) -> Array:
-    """Ways from places to the eyes of who watches, unit vectors. Shapes (T, 3)."""
-    eyes = np.array([_WATCHER, 0.0, find_place(humanoid, "eye").point[2]])
-    ways: Array = (eyes - places) / np.linalg.norm(eyes - places, axis=1, keepdims=True)
-    return ways
+    """Ways from places to who watches, where pictures are taken from: unit vectors. Shapes (T, 3)."""
+    ways = np.array(humanoid.file.cameras["front"].position) - places
+    units: Array = ways / np.linalg.norm(ways, axis=1, keepdims=True)
+    return units
 
 
 def _way_out(points: Array, ways: Array, radius: float) -> Array:

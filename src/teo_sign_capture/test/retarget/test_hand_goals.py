@@ -163,7 +163,7 @@ def test_what_is_too_near_goes_towards_who_watches_as_far_as_a_folded_arm_and_a_
         for contact in (0.0, 1.0)
     )
     # Where it is seen does not change for eyes 2.3 m in front, as high as TEO's.
-    eyes = np.array([2.3, 0.0, 0.723])
+    eyes = np.array([2.3, 0.0, 0.72])
     assert (moved[:, 0] > 0.0).all()
     assert np.cross(moved, eyes - poses.place) == pytest.approx(0.0, abs=1e-9)
     arms[:, 3] = arm_bounds(load_humanoid(), "both")[0][3]
