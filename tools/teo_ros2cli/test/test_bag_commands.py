@@ -98,8 +98,9 @@ def make_text_bag(directory: Path, count: int, step: int) -> None:
 def test_all_that_is_published_is_recorded_with_every_value(graph: Any, start: Any, tmp_path: Path) -> None:
     description = graph.node.create_publisher(String, "robot_description", LATCHED)
     description.publish(String(data="<robot name='TEO'/>"))  # long before the recorder
-    states = graph.node.create_publisher(JointState, "joint_states", 10)
-    plans = graph.node.create_publisher(JointTrajectory, "joint_trajectory", 10)
+    # Ten messages are a tenth of a second: what a recorder that sleeps longer asks for again would be gone.
+    states = graph.node.create_publisher(JointState, "joint_states", DEEP)
+    plans = graph.node.create_publisher(JointTrajectory, "joint_trajectory", DEEP)
     others = ("-x", "rosout|parameter", "--custom-data", "robot=TEO")
     recorder = start("bag", "record", "-a", "-o", str(tmp_path / "bag"), *others)
     wait_recording(recorder, "/robot_description", "/joint_states", "/joint_trajectory")
@@ -119,6 +120,8 @@ def test_all_that_is_published_is_recorded_with_every_value(graph: Any, start: A
         written.append((before, time.time_ns()))
 
     publish_at(100.0, 100, joint_state, plan)
+    for publisher in (states, plans):
+        assert publisher.wait_for_all_acked(Duration(seconds=PATIENCE))
     assert recorder.stop() == 0
     assert recorder.wait_for_line("Recording stopped")
 
