@@ -56,9 +56,19 @@ class CompleteTranslation:
 
     def without(self, places: Collection[int]) -> CompleteTranslation:
         """The same without some glosses, whose words others say."""
-        kept = [place for place in range(len(self.glosses)) if place not in places]
-        glosses = tuple(self.glosses[place] for place in kept)
-        return replace(self, glosses=glosses, put_back=tuple(self.put_back[place] for place in kept))
+        return self.in_order([place for place in range(len(self.glosses)) if place not in places])
+
+    def in_order(self, places: Sequence[int]) -> CompleteTranslation:
+        """The same with the glosses of some places, in their order."""
+        glosses = tuple(self.glosses[place] for place in places)
+        return replace(self, glosses=glosses, put_back=tuple(self.put_back[place] for place in places))
+
+    def with_glosses(self, place: int, *glosses: OutputGloss) -> CompleteTranslation:
+        """The same with glosses put in at a place."""
+        put_back = (*self.put_back[:place], *(True for _ in glosses), *self.put_back[place:])
+        return replace(
+            self, glosses=(*self.glosses[:place], *glosses, *self.glosses[place:]), put_back=put_back
+        )
 
 
 class FunctionWords:

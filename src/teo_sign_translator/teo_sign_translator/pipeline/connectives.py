@@ -32,6 +32,8 @@ _AGENTS = frozenset({"person", "family", "profession", "animal", "group"})
 _SURFACES = frozenset({"furniture", "room"})
 #: What may stand between a preposition and its noun, and between what is spoken of and the preposition.
 _BETWEEN = ("DET", "A:", "NUM", "ADV", "PRON:obj")
+#: What begins something that is done.
+_DONE = ("V:ind", "PRON:obj", "PRON:refl", "ADV:neg")
 #: Of a gloss that its preposition and noun ask for.
 _CONFIDENCE = 0.9
 
@@ -55,17 +57,58 @@ class Connectives:
             words: Of the sentence.
             said: A translation of it.
         """
+        said = self._with_almost(words, said)
         wrong = [place for place, gloss in enumerate(said.glosses) if self._is_wrong(words, gloss)]
         said = said.without(wrong)
         for place, word in enumerate(words):
             claimed = any(place in gloss.sources for gloss in said.glosses)
             if word.form == self._said.upon and not claimed and self._bears(words, place):
                 said = self._with_above(said, place, _noun_behind(words, place))
-        return said
+        return self._with_opposite(self._with_less_liked(words, said))
+
+    def _with_almost(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """The same with what almost happened: "por poco pierdo el tren", but not "por poco dinero"."""
+        little = [
+            (at + 1,)
+            for at, word in enumerate(words[:-2])
+            if word.form == self._said.through
+            and words[at + 1].form == self._said.little
+            and words[at + 2].readings[0].tag.startswith(_DONE)
+        ]
+        glosses = tuple(
+            replace(gloss, gloss=self._said.almost) if gloss.sources in little else gloss
+            for gloss in said.glosses
+        )
+        return replace(said, glosses=glosses)
+
+    def _with_less_liked(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """The same with "not" behind what is liked less: PREFERIR LEER SALIR NO."""
+        liking = [at for at, word in enumerate(words) if word.readings[0].lemma in self._said.preferring]
+        than = next((at for at, word in enumerate(words) if word.form == self._said.than), 0)
+        if not liking or than <= liking[0] + 1 or words[-1].form == "?":
+            return said
+        said_behind = ({*gloss.sources} - {*liking} for gloss in said.glosses)
+        less = [at for at, sources in enumerate(said_behind) if sources and min(sources) > than]
+        if not less or len(less) == len(said.glosses):
+            return said
+        negation = OutputGloss(self._said.negation, (than,), _CONFIDENCE, copied=False)
+        order = [*(at for at in range(len(said.glosses)) if at not in less), *less]
+        return said.in_order(order).with_glosses(len(order), negation)
+
+    def _with_opposite(self, said: CompleteTranslation) -> CompleteTranslation:
+        """The same with "not" behind what is denied alone: "no quiero café, sino té" is CAFÉ NO TÉ QUERER."""
+        denied = [at for at, gloss in enumerate(said.glosses) if gloss.gloss == self._said.negation]
+        rather = [at for at, gloss in enumerate(said.glosses) if gloss.gloss == self._said.rather]
+        if not denied or not rather:
+            return said
+        sources = {*said.glosses[denied[-1]].sources, *said.glosses[rather[0]].sources}
+        negation = replace(said.glosses[denied[-1]], sources=tuple(sorted(sources)))
+        place = min(denied[-1], rather[0])
+        return said.without([rather[0], denied[-1]]).with_glosses(place, negation)
 
     def _is_wrong(self, words: Sequence[SourceWord], gloss: OutputGloss) -> bool:
         if gloss.gloss == self._said.what:
-            return any(self._compares(words, place) for place in gloss.sources)
+            return any(self._joins(words, at) or self._compares(words, at) for at in gloss.sources)
         is_reason = gloss.gloss in self._said.reasons
         if not is_reason and gloss.gloss != self._said.above:
             return False
@@ -81,6 +124,12 @@ class Connectives:
             return not behind.isdisjoint(_WAYS | (_AGENTS if is_agent else frozenset()))
         is_topic = not _TOPICS.isdisjoint(behind) and _BEARERS.isdisjoint(behind)
         return is_topic or self._is_about(words, place)
+
+    def _joins(self, words: Sequence[SourceWord], place: int) -> bool:
+        """Whether "que" asks nothing: typed with care it is no "qué", but in "no sé que hacer"."""
+        follows = words[place + 1 :]
+        asks = bool(follows) and follows[0].readings[0].tag == "V:inf"
+        return words[place].form == self._said.than and _is_typed_with_care(words) and not asks
 
     def _compares(self, words: Sequence[SourceWord], place: int) -> bool:
         """Whether a word asks nothing, but names what is liked less: "prefiero leer que salir"."""
@@ -111,11 +160,12 @@ class Connectives:
         behind = next((at + 1 for at, gloss in enumerate(said.glosses) if gloss.sources == (noun,)), 0)
         if not behind:
             return said
-        above = OutputGloss(self._said.above, (place,), _CONFIDENCE, copied=False)
-        glosses = (*said.glosses[:behind], above, *said.glosses[behind:])
-        return replace(
-            said, glosses=glosses, put_back=(*said.put_back[:behind], True, *said.put_back[behind:])
-        )
+        return said.with_glosses(behind, OutputGloss(self._said.above, (place,), _CONFIDENCE, copied=False))
+
+
+def _is_typed_with_care(words: Sequence[SourceWord]) -> bool:
+    """Whether a sentence is no question and has its capital and its mark, so that "que" is not "qué"."""
+    return words[0].text[:1].isupper() and words[-1].is_mark and words[-1].form != "?"
 
 
 def _noun_behind(words: Sequence[SourceWord], place: int) -> int:

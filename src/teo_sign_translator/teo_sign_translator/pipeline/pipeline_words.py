@@ -69,21 +69,27 @@ class SubjectWords:
         joiner: Word that joins a clause in the subjunctive to the verb before it.
         link: Word that may stand between the two.
         object: Object pronoun of the signer.
-        signer: Gloss that points at the signer.
-        other: Gloss that points at a third person.
+        pointing: Glosses that point at persons, by person and number: 1s, 2p.
+        clitics: Object pronouns that a verb may end with, each with its person and number.
         concessives: Words that open a clause whose subject is that of the clause beside it: although.
         adjuncts: Others: when, if.
         impersonal: Verbs whose third person may be nobody.
+        believing: Verbs of what is held true, which may be about oneself in the subjunctive, too.
+        able: Verb of what one can do.
+        deeds: Verbs of what people do to each other.
     """
 
     joiner: str
     link: str
     object: str
-    signer: str
-    other: str
+    pointing: dict[str, str]
+    clitics: dict[str, str]
     concessives: frozenset[str]
     adjuncts: frozenset[str]
     impersonal: frozenset[str]
+    believing: frozenset[str]
+    able: str
+    deeds: frozenset[str]
 
 
 @dataclass(frozen=True)
@@ -99,6 +105,10 @@ class ConnectiveWords:
         than: Word before what is liked less, which also asks.
         what: Gloss that asks.
         preferring: Verbs of liking more.
+        negation: Gloss that denies.
+        rather: Gloss of "but" behind what is denied.
+        little: Word that means "almost" between the preposition of reasons and a verb.
+        almost: Gloss of that.
     """
 
     through: str
@@ -109,6 +119,10 @@ class ConnectiveWords:
     than: str
     what: str
     preferring: frozenset[str]
+    negation: str
+    rather: str
+    little: str
+    almost: str
 
 
 @dataclass(frozen=True)

@@ -23,6 +23,7 @@ from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.back_end import TranslatedSentence
 from teo_sign_translator.pipeline.completeness import Completeness, CompleteTranslation
 from teo_sign_translator.pipeline.connectives import Connectives
+from teo_sign_translator.pipeline.objects import Objects
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pipeline.reliability import features, reliability
 from teo_sign_translator.pipeline.subjects import Subjects
@@ -114,6 +115,7 @@ class PointerBackEnd:
         self._connectives = Connectives(morphology.folder)
         language = PipelineWords.load(morphology.folder)
         self._subjects = Subjects(language, self._topics)
+        self._objects = Objects(language, self._topics)
         self._weights = language.reliability
 
     @property
@@ -158,7 +160,8 @@ class PointerBackEnd:
                 output_words.append(PAUSE)
             said = _as_given(hypotheses, unit.given) or self._completeness.complete(words, hypotheses)
             if not unit.given:
-                said = self._subjects.read(words, self._connectives.read(words, said))
+                for rule in (self._connectives, self._subjects, self._objects):
+                    said = rule.read(words, said)
                 said = said.without(self._topics.repeated(words, said.glosses))
             unsaid = topic.unsaid(words, said.glosses)
             if not unit.given:

@@ -21,6 +21,11 @@ from teo_sign_translator.pipeline.topic import Topics
 from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.text.source_word import SourceWord
 
+_FINITE = ("V:ind", "V:cond", "V:sub")
+#: Of words that say themselves who does it.
+_WHOSE = (*_FINITE, "V:imp", "PRON")
+#: Before a person of the signer's, who may be meant by what stands beside it.
+_POSSESSIVE = "DET:poss:1"
 _MAIN = ("V:ind", "V:cond")
 _OBJECTS = ("PRON:obj", "PRON:refl")
 _SUBJUNCTIVE = re.compile(r"V:sub:.*:3s")
@@ -28,6 +33,8 @@ _AMBIGUOUS = re.compile(r"V:(sub|cond|ind:impf)\b.*:3s")
 _SIGNERS = re.compile(r"(V|PRON)\b.*:1s")
 _THIRD = re.compile(r"V:ind:(?!impf).*:3s")
 _ASKING = re.compile(r"V:imp:2.*")
+#: What may stand between a mark and a verb that asks for something.
+_BEFORE_COMMANDS = ("ADV:neg", "PRON:obj", "PRON:refl")
 _COMMAND = re.compile(r"V:(sub:pres|imp):.*3s")
 
 
@@ -37,6 +44,8 @@ class Subjects:
     def __init__(self, language: PipelineWords, topics: Topics) -> None:
         """Take how a language joins clauses and points at persons, and who may do things."""
         self._who = language.subjects
+        self._signer = language.subjects.pointing.get("1s", "")
+        self._other = language.subjects.pointing.get("3s", "")
         self._experiencer_verbs = language.persons.experiencer_verbs
         self._of_nobody = language.completeness.of_things | language.subjects.impersonal
         self._topics = topics
@@ -66,40 +75,51 @@ class Subjects:
         self, words: Sequence[SourceWord], gloss: OutputGloss, every: Sequence[OutputGloss]
     ) -> Iterator[OutputGloss]:
         """Whom a gloss should point at; nobody where he is named already; who acts and to whom it happens."""
-        who = self._who
         asked = all(_says(words[place].readings[:1], _ASKING) for place in gloss.sources)
-        if gloss.gloss == who.signer and gloss.sources and asked and not self._is_addressed(gloss, every):
+        if gloss.gloss == self._signer and gloss.sources and asked and not self._is_addressed(gloss, every):
             return  # "mándame": the sign's direction says to whom, and the signer does nothing
-        verb = next((place for place in gloss.sources if _says(words[place].readings, _AMBIGUOUS)), -1)
-        if verb < 0 or gloss.gloss not in (who.signer, who.other):
+        verb = self._verb(words, gloss)
+        if verb < 0 or gloss.gloss not in (self._signer, self._other):
             yield gloss
-        elif gloss.gloss == who.other:
+        elif _commands(words, verb) and (gloss.gloss == self._other or words[-1].is_mark):
+            return  # "olvide la cita", typed in haste, is "olvidé"
+        elif gloss.gloss == self._other:
             is_named = any(self._topics.may_do(words[place]) for place in gloss.sources)
-            conceded = not is_named and self._opens(words, verb) in who.concessives
-            yield replace(gloss, gloss=who.signer) if conceded and _has_signers_verb(words) else gloss
+            conceded = not is_named and self._opens(words, verb) in self._who.concessives
+            own = (conceded and _has_signers_verb(words)) or (not is_named and self._is_doubted(words, verb))
+            yield replace(gloss, gloss=self._signer) if own else gloss
         elif self._is_wished(words, verb):
-            if not any(each.gloss == who.other and verb in each.sources for each in every):
-                yield replace(gloss, gloss=who.other, sources=(verb,))
-            if words[verb - 1].form == who.object:
+            if not any(each.gloss == self._other and verb in each.sources for each in every):
+                yield replace(gloss, gloss=self._other, sources=(verb,))
+            if words[verb - 1].form == self._who.object:
                 yield replace(gloss, sources=(verb - 1,))
-        elif self._is_beside(words, gloss.sources, _THIRD):
-            yield replace(gloss, gloss=who.other)
-        elif self._is_beside(words, gloss.sources, _COMMAND):
+        elif self._is_beside(words, verb, _THIRD) or self._is_beside_named(words, verb):
+            yield replace(gloss, gloss=self._other)
+        elif self._is_beside(words, verb, _COMMAND):
             return
         elif not self._is_named(words, gloss.sources, verb):
             yield gloss
+
+    def _verb(self, words: Sequence[SourceWord], gloss: OutputGloss) -> int:
+        """Place of the verb that a person does, if its form alone is "yo" and "él"; -1 if it says who."""
+        own = next((place for place in gloss.sources if _says(words[place].readings, _AMBIGUOUS)), -1)
+        if own >= 0 or not gloss.sources or any(_is(words[place], _WHOSE) for place in gloss.sources):
+            return own
+        for place in range(gloss.sources[0] - 1, -1, -1):  # of what a noun or an adjective is said
+            if words[place].is_mark:
+                return -1
+            if _is(words[place], _FINITE):
+                return place if _says(words[place].readings[:1], _AMBIGUOUS) else -1
+        return -1
 
     def _is_addressed(self, asking: OutputGloss, every: Sequence[OutputGloss]) -> bool:
         """Whether who is asked is pointed at, too: TÚ YO DAR."""
         subjects = self._topics.subjects.keys() - {asking.gloss}
         return any(gloss.gloss in subjects and {*gloss.sources} & {*asking.sources} for gloss in every)
 
-    def _is_beside(
-        self, words: Sequence[SourceWord], sources: Sequence[int], another: re.Pattern[str]
-    ) -> bool:
+    def _is_beside(self, words: Sequence[SourceWord], verb: int, another: re.Pattern[str]) -> bool:
         """Whether a clause like "cuando llegue" stands beside a verb that is not the signer's."""
-        verb = sources[0]
-        if len(sources) > 1 or not self._opens(words, verb) or _names_signer(words, sources):
+        if not self._opens(words, verb) or _names_signer(words, verb):
             return False
         return any(
             another.fullmatch(word.readings[0].tag) and word.readings[0].lemma not in self._of_nobody
@@ -107,20 +127,39 @@ class Subjects:
             if place != verb and not self._opens(words, place)
         )
 
+    def _is_beside_named(self, words: Sequence[SourceWord], verb: int) -> bool:
+        """Whether it stands beside what somebody does by name: "aunque estuviera triste, Ana sonreía"."""
+        possessed = any(_is(word, _POSSESSIVE) for word in words)
+        if not self._opens(words, verb) or possessed or _names_signer(words, verb):
+            return False
+        mark = next((place for place in range(verb, len(words)) if words[place].is_mark), len(words))
+        done = (at for at in range(mark, len(words)) if _says(words[at].readings[:1], _AMBIGUOUS))
+        return any(self._is_said_of(words, at, mark) for at in done)
+
     def _is_named(self, words: Sequence[SourceWord], sources: Sequence[int], verb: int) -> bool:
         """Whether the subject is who is named in the clause that this one belongs to."""
+        opening = self._opens(words, verb)
+        if opening and verb in sources:
+            start = max(place for place in range(verb) if words[place].form == opening)
+            return self._is_said_of(words, verb, start)
         if _says(words[verb].readings[:1], _SUBJUNCTIVE) or _says_signer(words, sources):
             return False
         governor = self._governor(words, verb)
         if governor >= 0:
             return words[governor].readings[0].tag.endswith(":3s") and not _has_signers_verb(words)
-        if self._opens(words, verb) or _names_signer(words, sources):
+        if opening or (verb in sources and _names_signer(words, verb)):
             return False
-        mark = max((place for place, word in enumerate(words[:verb]) if word.is_mark), default=0)
-        beside = words[:mark]
-        named = [place for place, word in enumerate(beside) if self._names(word)]
-        opened = [self._opens(words, place) for place in named]
-        return any(opened) and any(_says(word.readings, _AMBIGUOUS) for word in beside)
+        return self._is_said_of(words, verb)
+
+    def _is_said_of(self, words: Sequence[SourceWord], verb: int, start: int = 0) -> bool:
+        """Whether who is named does what a verb, or one before it, says: "Ana fue, pero odiaba ir"."""
+        for place in range(start, verb):
+            if not self._names(words[place]) or _is_object(words, place):
+                continue
+            behind = next((word for word in words[place + 1 :] if _is(word, _FINITE)), None)
+            if behind is not None and behind.readings[0].tag.endswith(":3s"):
+                return True
+        return False
 
     def _names(self, word: SourceWord) -> bool:
         """Whether a word names somebody, by what it is most likely."""
@@ -148,10 +187,17 @@ class Subjects:
         main = joiner - 2 if words[joiner - 1].form == self._who.link else joiner - 1
         return main if main >= 0 and words[main].readings[0].tag.startswith((*_MAIN, "V:part")) else -1
 
+    def _is_doubted(self, words: Sequence[SourceWord], verb: int) -> bool:
+        """Whether the signer doubts what he is able to do himself: "no creo que pueda ir"."""
+        main = self._governor(words, verb)
+        reading = words[main].readings[0]
+        doubts = main >= 0 and reading.lemma in self._who.believing and reading.tag.endswith(":1s")
+        return doubts and words[verb].readings[0].lemma == self._who.able
+
     def _is_wished(self, words: Sequence[SourceWord], verb: int) -> bool:
         """Whether a subjunctive stands alone behind a joiner, and a verb of the signer's governs it."""
         main = self._governor(words, verb)
-        if main < 0 or not _says(words[verb].readings, _SUBJUNCTIVE):
+        if main < 0 or not _says(words[verb].readings, _SUBJUNCTIVE) or self._is_doubted(words, verb):
             return False
         reading = words[main].readings[0]
         feels = main > 0 and words[main - 1].form == self._who.object
@@ -174,14 +220,10 @@ def _with_nobody_first(words: Sequence[SourceWord], said: CompleteTranslation) -
         return said
     order = list(range(len(alone)))
     order.insert(objects[0], order.pop(at))
-    return replace(
-        said,
-        glosses=tuple(said.glosses[old] for old in order),
-        put_back=tuple(said.put_back[old] for old in order),
-    )
+    return said.in_order(order)
 
 
-def _is(word: SourceWord, tag: str) -> bool:
+def _is(word: SourceWord, tag: str | tuple[str, ...]) -> bool:
     return word.readings[0].tag.startswith(tag)
 
 
@@ -193,12 +235,28 @@ def _says_signer(words: Sequence[SourceWord], places: Sequence[int]) -> bool:
     return any(_says(words[place].readings[:1], _SIGNERS) for place in places)
 
 
-def _names_signer(words: Sequence[SourceWord], apart_from: Sequence[int]) -> bool:
-    """Whether a word but some says the signer."""
-    return _says_signer(words, [place for place in range(len(words)) if place not in apart_from])
+def _names_signer(words: Sequence[SourceWord], apart_from: int) -> bool:
+    """Whether a word but one says the signer."""
+    return _says_signer(words, [place for place in range(len(words)) if place != apart_from])
+
+
+def _commands(words: Sequence[SourceWord], verb: int) -> bool:
+    """Whether a verb asks somebody who is called "usted" to do something: "respire", "no se mueva"."""
+    if not _says(words[verb].readings[:1], _COMMAND):
+        return False
+    before = next((word for word in reversed(words[:verb]) if not _is(word, _BEFORE_COMMANDS)), None)
+    return before is None or before.is_mark
 
 
 def _has_signers_verb(words: Sequence[SourceWord]) -> bool:
     return any(
         word.readings[0].tag.startswith(_MAIN) and word.readings[0].tag.endswith(":1s") for word in words
     )
+
+
+def _is_object(words: Sequence[SourceWord], place: int) -> bool:
+    """Whether a preposition stands before a noun."""
+    for word in reversed(words[:place]):
+        if not word.readings[0].tag.startswith(("DET", "A:", "NUM")):
+            return word.readings[0].tag.startswith("PREP")
+    return False

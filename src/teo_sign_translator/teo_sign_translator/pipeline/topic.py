@@ -19,6 +19,7 @@ from teo_sign_translator.text.source_word import SourceWord
 
 #: Classes of nouns that may do what a verb says, so that they could be taken for its subject.
 _DOERS = frozenset({"person", "family", "profession", "animal", "group"})
+_BEFORE_NOUNS = ("DET", "A:", "NUM")
 _PERSONS = ("PRON", "NAME")
 #: What stands between a verb and what opens its clause ("que no me gustó").
 _BEFORE_VERBS = ("PRON:obj", "PRON:refl", "DET:def", "ADV")
@@ -37,6 +38,7 @@ class Topics:
         #: Pronouns' glosses with the person that a verb's ending says for each.
         self.subjects = {gloss_name(word): person for word, person in persons.items()}
         self._doers = frozenset(noun.lemma for noun in nouns(folder) if not _DOERS.isdisjoint(noun.classes))
+        self._times = frozenset(noun.lemma for noun in nouns(folder) if "time" in noun.classes)
 
     def may_do(self, word: SourceWord) -> bool:
         """Whether a word names or points at somebody."""
@@ -45,6 +47,14 @@ class Topics:
             or (reading.tag.startswith("N:") and reading.lemma in self._doers)
             for reading in word.readings
         )
+
+    def may_act(self, words: Sequence[SourceWord], place: int) -> bool:
+        """Whether a noun may be who does it: "el colegio", but neither "el lunes" nor "en el colegio"."""
+        reading = words[place].readings[0]
+        if not reading.tag.startswith(("N:", "NAME")) or reading.lemma in self._times:
+            return False
+        tags = (word.readings[0].tag for word in reversed(words[:place]))
+        return not next((tag for tag in tags if not tag.startswith(_BEFORE_NOUNS)), "").startswith("PREP")
 
     def repeated(self, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> list[int]:
         """The places of subjects that a clause before in the same sentence has said already.

@@ -38,6 +38,8 @@ def told_by_neighbours(words: list[SourceWord], morphology: Morphology) -> list[
             word = words[place] = replace(word, readings=_does(word, following, told.copulas))
         if following.form in told.amounts.get(word.form, "").split():
             words[place] = replace(word, readings=_without_verbs(word.readings, prepositions=False))
+    for place in range(len(words) - 2):
+        words[place] = _coming(words[place : place + 3], told.motion)
     for place in range(len(words) - 3):
         words[place] = _counting(words[place : place + 4], morphology)
     if len(words) > 1 and words[1].is_mark:
@@ -112,6 +114,15 @@ def _agrees(reading: Reading, gender: str, number: str) -> bool:
     """Whether a noun or adjective may stand behind an article; any other word may."""
     kind, _, form = reading.tag.rpartition(":")
     return kind not in ("N", "A") or (form[:1] in (gender, "c") and form[1:] in (number, "n"))
+
+
+def _coming(words: Sequence[SourceWord], motion: Collection[str]) -> SourceWord:
+    """The first of three words, a verb alone if it is one of motion, with what for: "vino a cenar"."""
+    verbs = tuple(
+        each for each in words[0].readings if each.lemma in motion and _PERSONAL.fullmatch(each.tag)
+    )
+    purpose = words[1].readings[0].tag == "PREP" and words[2].readings[0].tag == "V:inf"
+    return replace(words[0], readings=verbs) if verbs and purpose else words[0]
 
 
 def _counting(words: Sequence[SourceWord], morphology: Morphology) -> SourceWord:

@@ -38,6 +38,8 @@ def meant(words: Sequence[SourceWord], gloss: str, place: int) -> str:
         ("Me pidió que", "viniera mañana", "YO"),
         ("Espero que me", "llame mañana", "ÉL YO"),  # whom it happens to is the signer
         ("Me molesta que", "fume aquí", "ÉL"),
+        ("No creo que", "venga hoy", "ÉL"),
+        ("No creo que", "pueda ir", "YO"),
         ("Quiero que lo", "haga pronto", "ÉL"),
         ("No quiero que te", "vea nunca", "ÉL"),
         ("Quiero que Pedro lo", "haga pronto", "YO"),  # a model that says so is not mended here
@@ -84,6 +86,16 @@ def test_in_what_is_conceded_somebody_else_is_not_meant_unsaid(sentence: str, su
         ("Cuando sepa la verdad, se va a enfadar.", "sepa", "ÉL"),
         # Whoever is asked to do something.
         ("Cuando termine, llámeme.", "termine", ""),
+        ("Hable más despacio, que leo los labios.", "hable", ""),
+        ("No se mueva.", "mueva", ""),
+        ("olvide la contraseña", "olvide", "YO"),  # typed in haste for "olvidé"
+        # Somebody is named beside it, or before.
+        ("Aunque estuviera triste, la actriz sonreía.", "estuviera", "ÉL"),
+        ("Si estuviera enfermo, su madre lloraría.", "estuviera", "ÉL"),
+        ("Si tuviera dinero, mi madre estaría contenta.", "tuviera", "YO"),
+        ("Si Carmen tuviera coche, iría a la playa.", "tuviera", ""),
+        ("Mi abuelo nunca fue a misa, pero respetaba a los curas.", "respetaba", ""),
+        ("Fui con mi abuelo, pero prefería el cine.", "prefería", "YO"),
         ("Cuando llegue a casa, te llamo.", "llegue", "YO"),
         ("Cuando llegue a casa, me duchará.", "llegue", "YO"),
         ("Si tuviera dinero, viajaría.", "viajaría", "YO"),

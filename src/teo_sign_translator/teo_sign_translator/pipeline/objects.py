@@ -1,0 +1,232 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Whom something happens to, where an object pronoun alone says it: "la chica que te presenté".
+
+A model that leaves out who acts on the addressee, or on whom a third person acts, turns the sentence round:
+CHICA TÚ PRESENTAR has the addressee present her. Who acts is signed first, then whom it happens to, then what
+happens (Herrero Blanco 2009, Gramática didáctica de la LSE, on directional verbs).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from teo_sign_translator.pipeline.completeness import CompleteTranslation
+from teo_sign_translator.pipeline.pipeline_words import PipelineWords
+from teo_sign_translator.pipeline.topic import Topics
+from teo_sign_translator.pointer import OutputGloss
+from teo_sign_translator.text.source_word import SourceWord
+
+_OBJECT = "PRON:obj:"
+_CLITICS = (_OBJECT, "PRON:refl")
+#: Of a verb that says by its form alone that it is neither the signer nor the addressee who does it.
+_SAYS_WHO = re.compile(r"V:ind:(?!impf).*:3s")
+#: What a clause ends with or opens with.
+_OPENING = ("MARK", "CONJ", "PRON:rel", "WH")
+#: Of words that may name who does it.
+_PERSONS = ("N:", "NAME", "PRON")
+_FIRST, _THIRD = "1", "3"
+_FINITE = ("V:ind", "V:sub", "V:cond")
+#: Of verbs that another one governs, and what may stand between the two.
+_GOVERNED = ("V:inf", "V:ger", "V:part")
+_LINKS = ("PREP", "CONJ", "PRON:rel", "ADV")
+#: Of a person that the pronoun or the ending says.
+_CONFIDENCE = 0.9
+
+
+class _Deed(NamedTuple):
+    """What somebody does to whom.
+
+    Attributes:
+        clitic: Place of the object pronoun.
+        to_whom: Its person and number, e.g. "2s".
+        who: Person and number of who does it.
+        verbs: Places of the verb that says so, and of those that it governs.
+    """
+
+    clitic: int
+    to_whom: str
+    who: str
+    verbs: tuple[int, ...]
+
+
+class Objects:
+    """Reads whom something happens to."""
+
+    def __init__(self, language: PipelineWords, topics: Topics) -> None:
+        """Take how a language joins clauses and points at persons, and who may do things."""
+        self._who = language.subjects
+        self._pointing = language.subjects.pointing
+        self._names = frozenset(self._pointing.values())
+        self._experiencer_verbs = language.persons.experiencer_verbs
+        self._topics = topics
+
+    def read(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """A translation in which both are pointed at where one who is left out would be taken for the other.
+
+        Args:
+            words: Of the sentence.
+            said: A translation of it.
+        """
+        for deed in self._deeds(words):
+            _, verbs = self._said(said, deed)
+            if verbs and deed.who.startswith(_THIRD):
+                said = self._with_both(words, self._with_others(words, said, deed), deed)
+            elif verbs:
+                said = self._with_actor(said, deed)
+        return said
+
+    def _deeds(self, words: Sequence[SourceWord]) -> Iterator[_Deed]:
+        """What is done to the signer or the addressee: a pronoun before its verb, or at its end."""
+        for place, word in enumerate(words):
+            reading = word.readings[0]
+            at_end = next(
+                (self._who.clitics[each] for each in reading.clitics if each in self._who.clitics), ""
+            )
+            if at_end:
+                to_whom, verbs = at_end, _up_to(words, place)
+            else:
+                to_whom, verbs = reading.tag.removeprefix(_OBJECT), _behind(words, place)
+            if not verbs or to_whom not in self._who.clitics.values():
+                continue
+            who = words[verbs[0]].readings[0].tag.rsplit(":", 1)[-1]
+            is_reflexive = who[0] == to_whom[0]
+            # "quiere verme" may be said of who is named before.
+            if who in self._pointing and not is_reflexive and not (at_end and who.startswith(_THIRD)):
+                yield _Deed(place, to_whom, who, verbs)
+
+    def _with_actor(self, said: CompleteTranslation, deed: _Deed) -> CompleteTranslation:
+        """The same with the signer or the addressee who does it, before who would be taken to do it."""
+        who, to_whom = self._pointing[deed.who], self._pointing[deed.to_whom]
+        own, verbs = self._said(said, deed)
+        done = next((at for at in verbs if deed.verbs[-1] in said.glosses[at].sources), -1)
+        if [said.glosses[at].gloss for at in own] != [to_whom] or own[0] > done:
+            return said
+        place = min(own[0], verbs[0])
+        typed = place > 0 and said.glosses[place - 1].gloss == who
+        return said if typed else said.with_glosses(place, _person(who, deed.verbs[0]))
+
+    def _with_others(
+        self, words: Sequence[SourceWord], said: CompleteTranslation, deed: _Deed
+    ) -> CompleteTranslation:
+        """The same with others and the signer, where the signer would be taken to do what others should."""
+        joiner = self._wish(words, deed)
+        behind = [bool(gloss.sources) and min(gloss.sources) > joiner for gloss in said.glosses]
+        named = any(
+            is_own and gloss.gloss in self._names for gloss, is_own in zip(said.glosses, behind, strict=True)
+        )
+        if joiner < 0 or named:
+            return said
+        place = self._said(said, deed)[1][0]
+        while place > 0 and behind[place - 1]:
+            place -= 1
+        to_whom = _person(self._pointing[deed.to_whom], deed.clitic)
+        # One that no word says is this one, at another place.
+        again = [
+            at for at, gloss in enumerate(said.glosses) if not gloss.sources and gloss.gloss == to_whom.gloss
+        ]
+        said = said.with_glosses(place, _person(self._pointing[deed.who], deed.verbs[0]), to_whom)
+        return said.without([at if at < place else at + 2 for at in again])
+
+    def _with_both(
+        self, words: Sequence[SourceWord], said: CompleteTranslation, deed: _Deed
+    ) -> CompleteTranslation:
+        """The same with who is not named and whom he does it to: "ayer me llamó", never AYER YO LLAMAR."""
+        own, verbs = self._said(said, deed)
+        pointed = [said.glosses[at].gloss for at in own]
+        who = _person(self._pointing[deed.who], deed.verbs[0])
+        to_whom = _person(self._pointing[deed.to_whom], deed.clitic)
+        if who.gloss in pointed or not self._is_deed(words, deed) or self._is_named(words, deed):
+            return said
+        if to_whom.gloss not in pointed:
+            return said.with_glosses(verbs[0], who, to_whom)
+        return said.with_glosses(own[0], who) if own[0] < verbs[0] else said
+
+    def _said(self, said: CompleteTranslation, deed: _Deed) -> tuple[list[int], list[int]]:
+        """Which glosses point at somebody for a deed, and which say what is done."""
+        pointing: list[int] = []
+        verbs: list[int] = []
+        for at, gloss in enumerate(said.glosses):
+            if gloss.gloss not in self._names and not {*deed.verbs}.isdisjoint(gloss.sources):
+                verbs.append(at)
+            elif gloss.gloss in self._names and not {deed.clitic, *deed.verbs}.isdisjoint(gloss.sources):
+                pointing.append(at)
+        return pointing, verbs
+
+    def _is_deed(self, words: Sequence[SourceWord], deed: _Deed) -> bool:
+        """Whether a third person does it on purpose, in a statement: "me llamó", not "me gusta llamar"."""
+        finite = words[deed.verbs[0]].readings[0]
+        if not _SAYS_WHO.fullmatch(finite.tag) or finite.lemma in self._experiencer_verbs:
+            return False
+        done = {reading.lemma for reading in words[deed.verbs[-1]].readings if reading.tag.startswith("V:")}
+        return not done.isdisjoint(self._who.deeds) and words[-1].form != "?"
+
+    def _is_named(self, words: Sequence[SourceWord], deed: _Deed) -> bool:
+        """Whether the clause names who does it, is another's that does, or says that nobody does it."""
+        before, behind = range(deed.clitic, 0, -1), range(deed.verbs[-1] + 1, len(words))
+        start = next((at for at in before if _is(words[at - 1], _OPENING)), 0)
+        stop = next((at for at in behind if _is(words[at], _OPENING)), len(words))
+        joined = start > 0 and words[start - 1].form == self._who.joiner
+        happens = any(
+            _is(words[at], "PRON:refl") for at in range(deed.clitic - 1, deed.verbs[0])
+        )  # se me olvidó
+        return (
+            joined
+            or happens
+            or any(
+                _is(words[at], ("PRON:", "WH"))
+                or (self._topics.may_act(words, at) and (at < deed.clitic or self._topics.may_do(words[at])))
+                for at in range(start, stop)
+                if not _is(words[at], _CLITICS)
+            )
+        )
+
+    def _wish(self, words: Sequence[SourceWord], deed: _Deed) -> int:
+        """Place of what joins a wish to its verb, if it names nobody: "quiero que me escuchen"; else -1."""
+        if not deed.to_whom.startswith(_FIRST) or not _is(words[deed.verbs[0]], "V:sub"):
+            return -1
+        before = range(deed.clitic - 1, 0, -1)
+        joiner = next((at for at in before if not _is(words[at], ("ADV", *_CLITICS))), 0)
+        stop = next((at for at in range(joiner, len(words)) if words[at].is_mark), len(words))
+        behind = words[deed.verbs[-1] + 1 : stop]
+        named = any(_is(word, _PERSONS) and self._topics.may_do(word) for word in behind)
+        joins = words[joiner].form == self._who.joiner and _is(words[joiner - 1], (*_FINITE, "V:part"))
+        return joiner if joins and not named else -1
+
+
+def _behind(words: Sequence[SourceWord], clitic: int) -> tuple[int, ...]:
+    """Places of the verb behind a pronoun and of those that it governs: "me van a operar"; or none."""
+    following = (at for at in range(clitic + 1, len(words)) if not _is(words[at], _CLITICS))
+    finite = next(following, -1)
+    if not _is(words[clitic], _OBJECT) or finite < 0 or not _is(words[finite], _FINITE):
+        return ()
+    places = [finite]
+    for place in range(finite + 1, len(words)):
+        participle = place == finite + 1 and any(each.tag == "V:part:ms" for each in words[place].readings)
+        if participle or _is(words[place], _GOVERNED):  # "ha pedido" is no "pedido"
+            places.append(place)
+        elif not _is(words[place], _LINKS):
+            break
+    return tuple(places)
+
+
+def _up_to(words: Sequence[SourceWord], place: int) -> tuple[int, ...]:
+    """Places of a verb that ends with a pronoun, and first of the one that says who: "ven a verme"."""
+    if not _is(words[place], "V:inf"):
+        return (place,)
+    for before in range(place - 1, -1, -1):
+        if _is(words[before], (*_FINITE, "V:imp")):
+            return (before, place)
+        if not _is(words[before], (*_LINKS, *_GOVERNED)):
+            break
+    return ()
+
+
+def _person(name: str, source: int) -> OutputGloss:
+    return OutputGloss(name, (source,), _CONFIDENCE, copied=False)
+
+
+def _is(word: SourceWord, tags: str | tuple[str, ...]) -> bool:
+    return word.readings[0].tag.startswith(tags)
