@@ -25,9 +25,7 @@ _CLITICS = (_OBJECT, "PRON:refl")
 _SAYS_WHO = re.compile(r"V:ind:(?!impf).*:3s")
 #: What a clause ends with or opens with.
 _OPENING = ("MARK", "CONJ", "PRON:rel", "WH")
-#: Of words that may name who does it.
-_PERSONS = ("N:", "NAME", "PRON")
-_FIRST, _THIRD = "1", "3"
+_THIRD = "3"
 _FINITE = ("V:ind", "V:sub", "V:cond")
 #: Of verbs that another one governs, and what may stand between the two.
 _GOVERNED = ("V:inf", "V:ger", "V:part")
@@ -73,7 +71,7 @@ class Objects:
         for deed in self._deeds(words):
             _, verbs = self._said(said, deed)
             if verbs and deed.who.startswith(_THIRD):
-                said = self._with_both(words, self._with_others(words, said, deed), deed)
+                said = self._with_both(words, said, deed)
             elif verbs:
                 said = self._with_actor(said, deed)
         return said
@@ -107,28 +105,6 @@ class Objects:
         place = min(own[0], verbs[0])
         typed = place > 0 and said.glosses[place - 1].gloss == who
         return said if typed else said.with_glosses(place, _person(who, deed.verbs[0]))
-
-    def _with_others(
-        self, words: Sequence[SourceWord], said: CompleteTranslation, deed: _Deed
-    ) -> CompleteTranslation:
-        """The same with others and the signer, where the signer would be taken to do what others should."""
-        joiner = self._wish(words, deed)
-        behind = [bool(gloss.sources) and min(gloss.sources) > joiner for gloss in said.glosses]
-        named = any(
-            is_own and gloss.gloss in self._names for gloss, is_own in zip(said.glosses, behind, strict=True)
-        )
-        if joiner < 0 or named:
-            return said
-        place = self._said(said, deed)[1][0]
-        while place > 0 and behind[place - 1]:
-            place -= 1
-        to_whom = _person(self._pointing[deed.to_whom], deed.clitic)
-        # One that no word says is this one, at another place.
-        again = [
-            at for at, gloss in enumerate(said.glosses) if not gloss.sources and gloss.gloss == to_whom.gloss
-        ]
-        said = said.with_glosses(place, _person(self._pointing[deed.who], deed.verbs[0]), to_whom)
-        return said.without([at if at < place else at + 2 for at in again])
 
     def _with_both(
         self, words: Sequence[SourceWord], said: CompleteTranslation, deed: _Deed
@@ -182,18 +158,6 @@ class Objects:
                 if not _is(words[at], _CLITICS)
             )
         )
-
-    def _wish(self, words: Sequence[SourceWord], deed: _Deed) -> int:
-        """Place of what joins a wish to its verb, if it names nobody: "quiero que me escuchen"; else -1."""
-        if not deed.to_whom.startswith(_FIRST) or not _is(words[deed.verbs[0]], "V:sub"):
-            return -1
-        before = range(deed.clitic - 1, 0, -1)
-        joiner = next((at for at in before if not _is(words[at], ("ADV", *_CLITICS))), 0)
-        stop = next((at for at in range(joiner, len(words)) if words[at].is_mark), len(words))
-        behind = words[deed.verbs[-1] + 1 : stop]
-        named = any(_is(word, _PERSONS) and self._topics.may_do(word) for word in behind)
-        joins = words[joiner].form == self._who.joiner and _is(words[joiner - 1], (*_FINITE, "V:part"))
-        return joiner if joins and not named else -1
 
 
 def _behind(words: Sequence[SourceWord], clitic: int) -> tuple[int, ...]:

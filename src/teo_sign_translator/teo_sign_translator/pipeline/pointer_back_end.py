@@ -28,6 +28,7 @@ from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pipeline.reliability import features, reliability
 from teo_sign_translator.pipeline.subjects import Subjects
 from teo_sign_translator.pipeline.topic import Topic, Topics
+from teo_sign_translator.pipeline.wishes import Wishes
 from teo_sign_translator.pointer import Hypothesis, OutputGloss, SentenceModel
 from teo_sign_translator.pointer.vocabulary import copied_gloss
 from teo_sign_translator.text.cleaning import clean
@@ -112,10 +113,13 @@ class PointerBackEnd:
         self._agreement = agreement
         self._beam_width = beam_width
         self._topics = Topics(morphology.folder)
-        self._connectives = Connectives(morphology.folder)
         language = PipelineWords.load(morphology.folder)
-        self._subjects = Subjects(language, self._topics)
-        self._objects = Objects(language, self._topics)
+        self._meaning = (
+            Connectives(morphology.folder),
+            Subjects(language, self._topics),
+            Wishes(language, self._topics),
+            Objects(language, self._topics),
+        )
         self._weights = language.reliability
 
     @property
@@ -160,7 +164,7 @@ class PointerBackEnd:
                 output_words.append(PAUSE)
             said = _as_given(hypotheses, unit.given) or self._completeness.complete(words, hypotheses)
             if not unit.given:
-                for rule in (self._connectives, self._subjects, self._objects):
+                for rule in self._meaning:
                     said = rule.read(words, said)
                 said = said.without(self._topics.repeated(words, said.glosses))
             unsaid = topic.unsaid(words, said.glosses)

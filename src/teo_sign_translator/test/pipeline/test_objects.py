@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Whom something happens to, as a speaker of Spanish reads the sentence."""
+"""Whom something happens to, and who should do it, as a speaker of Spanish reads the sentence."""
 
 from __future__ import annotations
 
@@ -11,12 +11,14 @@ from teo_sign_translator.pipeline.completeness import CompleteTranslation
 from teo_sign_translator.pipeline.objects import Objects
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pipeline.topic import Topics
+from teo_sign_translator.pipeline.wishes import Wishes
 from teo_sign_translator.pointer import OutputGloss
 
 OBJECTS = Objects(PipelineWords.load(TEXT), Topics(TEXT))
+WISHES = Wishes(PipelineWords.load(TEXT), Topics(TEXT))
 
 
-def meant(sentence: str, model: str) -> str:
+def meant(rule: Objects | Wishes, sentence: str, model: str) -> str:
     """What is signed where a model says these glosses, each with the word that it says: `TÚ/te`."""
     words = read(sentence)
     forms = [word.form for word in words]
@@ -25,7 +27,7 @@ def meant(sentence: str, model: str) -> str:
         gloss, _, form = each.partition("/")
         glosses.append(OutputGloss(gloss, (forms.index(form),) if form else (), 0.9, copied=False))
     said = CompleteTranslation(tuple(glosses), (False,) * len(glosses))
-    return " ".join(gloss.gloss for gloss in OBJECTS.read(words, said).glosses)
+    return " ".join(gloss.gloss for gloss in rule.read(words, said).glosses)
 
 
 @pytest.mark.parametrize(
@@ -63,25 +65,43 @@ def meant(sentence: str, model: str) -> str:
         ("Me duele mucho.", "YO/me DOLER/duele MUCHO/mucho", "YO DOLER MUCHO"),
         ("Me gusta llamar.", "YO/me LLAMAR/llamar GUSTAR/gusta", "YO LLAMAR GUSTAR"),
         ("Se me olvidó llamar.", "YO/me LLAMAR/llamar OLVIDAR/olvidó", "YO LLAMAR OLVIDAR"),
-        # What others are wished to do.
+    ],
+)
+def test_who_is_left_out_is_not_taken_for_another(sentence: str, model: str, signed: str) -> None:
+    assert meant(OBJECTS, sentence, model) == signed
+
+
+@pytest.mark.parametrize(
+    ("sentence", "model", "signed"),
+    [
+        ("Espero que apruebe.", "YO/espero ESPERAR/espero APROBAR/apruebe", "YO ESPERAR ÉL APROBAR"),
+        ("Me da miedo que se caigan.", "YO/me MIEDO/miedo CAER/caigan", "YO MIEDO ELLOS CAER"),
         ("Me gusta que me mientan.", "YO/me GUSTAR/gusta MENTIR/mientan", "YO GUSTAR ELLOS YO MENTIR"),
         (
             "Espero que me devuelva el libro.",
             "ESPERAR/espero LIBRO/libro DEVOLVER/devuelva",
             "ESPERAR ÉL YO LIBRO DEVOLVER",
         ),
+        # One more of the signer that no word says.
         (
             "No quiero que me mientan.",
             "YO/quiero QUERER/quiero MENTIR/mientan YO",
             "YO QUERER ELLOS YO MENTIR",
         ),
-        ("Quiero que me llame Ana.", "YO/quiero QUERER/quiero ANA/ana LLAMAR/llame", "YO QUERER ANA LLAMAR"),
-        (
-            "Quiero que te llame.",
-            "YO/quiero QUERER/quiero LLAMAR/llame",
-            "YO QUERER LLAMAR",
-        ),  # he or the signer
+        ("Le dejo la llave para que venga.", "LLAVE/llave DEJAR/dejo VENIR/venga", "LLAVE DEJAR ÉL VENIR"),
+        # Somebody is named, or meant already.
+        ("Quiero que me llame Ana.", "QUERER/quiero ANA/ana LLAMAR/llame", "QUERER ANA LLAMAR"),
+        ("Mi madre quiere que venga.", "MADRE/madre QUERER/quiere VENIR/venga", "MADRE QUERER VENIR"),
+        ("Quiero que venga.", "QUERER/quiero ÉL/venga VENIR/venga", "QUERER ÉL VENIR"),
+        # Nobody does it, or the signer.
+        ("Espero que llueva.", "ESPERAR/espero LLOVER/llueva", "ESPERAR LLOVER"),
+        ("Espero que te guste.", "ESPERAR/espero TÚ/te GUSTAR/guste", "ESPERAR TÚ GUSTAR"),
+        ("Busco un coche que gaste poco.", "COCHE/coche GASTAR/gaste BUSCAR/busco", "COCHE GASTAR BUSCAR"),
+        ("No creo que pueda venir.", "CREER/creo VENIR/venir PODER/pueda", "CREER VENIR PODER"),
+        ("Me ataban para que no entrara.", "YO/me ATAR/ataban ENTRAR/entrara", "YO ATAR ENTRAR"),
     ],
 )
-def test_who_is_left_out_is_not_taken_for_another(sentence: str, model: str, signed: str) -> None:
-    assert meant(sentence, model) == signed
+def test_who_wishes_something_is_not_taken_for_who_should_do_it(
+    sentence: str, model: str, signed: str
+) -> None:
+    assert meant(WISHES, sentence, model) == signed

@@ -86,7 +86,7 @@ def test_in_what_is_conceded_somebody_else_is_not_meant_unsaid(sentence: str, su
         ("Cuando sepa la verdad, se va a enfadar.", "sepa", "ÉL"),
         # Whoever is asked to do something.
         ("Cuando termine, llámeme.", "termine", ""),
-        ("Hable más despacio, que leo los labios.", "hable", ""),
+        ("Hable más alto, que no le oigo.", "hable", ""),
         ("No se mueva.", "mueva", ""),
         ("olvide la contraseña", "olvide", "YO"),  # typed in haste for "olvidé"
         # Somebody is named beside it, or before.

@@ -1,0 +1,108 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Who should do what the signer wishes or fears, where nobody is named: "espero que apruebe".
+
+Left out, the signer would be taken to hope that he passes himself, which Spanish says with an infinitive
+(disjoint reference; Nueva gramática de la lengua española, 2009, chapter 25).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from teo_sign_translator.pipeline.completeness import CompleteTranslation
+from teo_sign_translator.pipeline.pipeline_words import PipelineWords
+from teo_sign_translator.pipeline.topic import Topics
+from teo_sign_translator.pointer import OutputGloss
+from teo_sign_translator.text.source_word import SourceWord
+
+_WISHED = re.compile(r"V:sub:.*:(3[sp])")
+_CLITICS = ("PRON:obj:", "PRON:refl")
+#: What may stand between what joins a wish and its verb.
+_BETWEEN = ("ADV", *_CLITICS)
+#: Of words that may name who does it.
+_PERSONS = ("N:", "NAME", "PRON")
+_SIGNERS = re.compile(r"V:.*:1[sp]")
+_FELT = "PRON:obj:1"
+#: Of a person that the verb's ending or the pronoun says.
+_CONFIDENCE = 0.9
+
+
+class Wishes:
+    """Reads who should do what is wished."""
+
+    def __init__(self, language: PipelineWords, topics: Topics) -> None:
+        """Take how a language joins clauses and points at persons, and who may do things."""
+        self._who = language.subjects
+        self._names = frozenset(language.subjects.pointing.values())
+        self._done_by_nobody = (
+            language.completeness.of_things
+            | language.subjects.impersonal
+            | language.persons.experiencer_verbs
+        )
+        self._topics = topics
+
+    def read(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """A translation in which whoever should do it is pointed at.
+
+        Args:
+            words: Of the sentence.
+            said: A translation of it.
+        """
+        for verb, word in enumerate(words):
+            person = _WISHED.fullmatch(word.readings[0].tag)
+            joiner = self._joiner(words, verb) if person else 0
+            if person and joiner:
+                said = self._with_others(words, said, verb, joiner, person[1])
+        return said
+
+    def _joiner(self, words: Sequence[SourceWord], verb: int) -> int:
+        """Place of what joins a wish of the signer's to its verb, if nobody is named in either; else 0."""
+        before = (at for at in range(verb - 1, 0, -1) if not words[at].readings[0].tag.startswith(_BETWEEN))
+        joiner = next(before, 0)
+        if words[joiner].form != self._who.joiner or words[verb].readings[0].lemma in self._done_by_nobody:
+            return 0
+        start = next((at + 1 for at in range(joiner - 1, -1, -1) if words[at].is_mark), 0)
+        stop = next((at for at in range(verb, len(words)) if words[at].is_mark), len(words))
+        main = [word.readings[0] for word in words[start:joiner]]
+        feels = any(reading.tag.startswith(_FELT) for reading in main)
+        acts = any(_SIGNERS.fullmatch(reading.tag) for reading in main)
+        before_joiner = main[-1].tag if main else ""
+        # "me da miedo que", but neither "un sitio que" nor "me llama para que".
+        is_signers = feels if before_joiner.startswith("N:") else acts or (feels and before_joiner != "PREP")
+        able = words[verb].readings[0].lemma == self._who.able
+        is_own = able and any(reading.lemma in self._who.believing for reading in main)
+        named = any(self._names_somebody(words[at]) for at in range(start, stop))
+        return joiner if is_signers and not is_own and not named else 0
+
+    def _names_somebody(self, word: SourceWord) -> bool:
+        tag = word.readings[0].tag
+        return (
+            tag.startswith(_PERSONS)
+            and not tag.startswith((*_CLITICS, "PRON:rel"))
+            and self._topics.may_do(word)
+        )
+
+    def _with_others(
+        self, words: Sequence[SourceWord], said: CompleteTranslation, verb: int, joiner: int, person: str
+    ) -> CompleteTranslation:
+        behind = [bool(gloss.sources) and min(gloss.sources) > joiner for gloss in said.glosses]
+        place = next(
+            (at for at, gloss in enumerate(said.glosses) if behind[at] and verb in gloss.sources), -1
+        )
+        while place > 0 and behind[place - 1]:
+            place -= 1
+        who = OutputGloss(self._who.pointing[person], (verb,), _CONFIDENCE, copied=False)
+        clitic = words[verb - 1].readings[0].tag.removeprefix(_CLITICS[0])
+        to_whom = self._who.pointing[clitic] if clitic in self._who.clitics.values() else ""
+        own = [gloss for at, gloss in enumerate(said.glosses) if behind[at] and gloss.gloss in self._names]
+        if place < 0 or any(gloss.gloss != to_whom or verb in gloss.sources for gloss in own):
+            return said
+        if own or not to_whom:
+            return said.with_glosses(place, who)
+        # One that no word says is this one, at another place.
+        again = [at for at, gloss in enumerate(said.glosses) if not gloss.sources and gloss.gloss == to_whom]
+        place -= sum(at < place for at in again)
+        done_to = OutputGloss(to_whom, (verb - 1,), _CONFIDENCE, copied=False)
+        return said.without(again).with_glosses(place, who, done_to)
