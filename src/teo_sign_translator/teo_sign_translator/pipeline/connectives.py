@@ -32,6 +32,7 @@ _AGENTS = frozenset({"person", "family", "profession", "animal", "group"})
 _SURFACES = frozenset({"furniture", "room"})
 #: What may stand between a preposition and its noun, and between what is spoken of and the preposition.
 _BETWEEN = ("DET", "A:", "NUM", "ADV", "PRON:obj")
+_POSSESSIVES = ("DET:poss", "PRON:poss")
 #: What begins something that is done.
 _DONE = ("V:ind", "PRON:obj", "PRON:refl", "ADV:neg")
 #: Of a gloss that its preposition and noun ask for.
@@ -64,7 +65,50 @@ class Connectives:
             claimed = any(place in gloss.sources for gloss in said.glosses)
             if word.form == self._said.upon and not claimed and self._bears(words, place):
                 said = self._with_above(said, place, _noun_behind(words, place))
+        said = self._with_compared(words, self._with_companion(words, self._with_span(words, said)))
         return self._with_opposite(self._with_less_liked(words, said))
+
+    def _with_span(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """The same with "until" between two numbers of a span: "de nueve a dos" is no 9:02."""
+        for place in range(3, len(words)):
+            first, last = words[place - 2].readings[0].tag, words[place].readings[0].tag
+            span = (words[place - 3].form, words[place - 1].form) == self._said.span
+            to = next((at for at, gloss in enumerate(said.glosses) if gloss.sources == (place,)), 0)
+            if span and first == last == "NUM" and to and place - 2 in said.glosses[to - 1].sources:
+                return said.with_glosses(to, self._gloss(self._said.until, place - 1))
+        return said
+
+    def _with_companion(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """The same with "with" where somebody only tells who is meant: "el chico que vive conmigo"."""
+        for at, gloss in enumerate(said.glosses):
+            place = gloss.sources[0] if len(gloss.sources) == 1 else 0
+            if not words[place].readings[0].tag.startswith("PRON:with"):
+                continue
+            before = next((back for back in range(place, 0, -1) if words[back].form == self._said.than), 0)
+            is_relative = before > 0 and words[before - 1].readings[0].tag.startswith("N:")
+            if is_relative and (at == 0 or said.glosses[at - 1].gloss != self._said.together):
+                return said.with_glosses(at, self._gloss(self._said.together, place))
+        return said
+
+    def _with_compared(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """The same with what is compared named twice: "que el nuestro", "que las de ayer"."""
+        for than in range(1, len(words) - 2):
+            article, other = words[than + 1].readings[0].tag, words[than + 2]
+            belongs = other.form == self._said.of or other.readings[0].tag.startswith(_POSSESSIVES)
+            compares = words[than].form == self._said.than and article.startswith("DET:def") and belongs
+            if not compares or any(gloss.sources == (than,) for gloss in said.glosses):
+                continue
+            noun = next((at for at in range(than) if words[at].readings[0].tag.startswith("N:")), -1)
+            own = (each.gloss for each in said.glosses if each.copied and noun in each.sources)
+            behind = (at for at, each in enumerate(said.glosses) if min(each.sources, default=0) > than)
+            name, place = next(own, ""), next(behind, -1)
+            if name and place >= 0:
+                return said.with_glosses(place, self._gloss(name, than + 1))
+        return said
+
+    @staticmethod
+    def _gloss(name: str, place: int) -> OutputGloss:
+        return OutputGloss(name, (place,), _CONFIDENCE, copied=False)
 
     def _with_almost(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """The same with what almost happened: "por poco pierdo el tren", but not "por poco dinero"."""
@@ -91,7 +135,7 @@ class Connectives:
         less = [at for at, sources in enumerate(said_behind) if sources and min(sources) > than]
         if not less or len(less) == len(said.glosses):
             return said
-        negation = OutputGloss(self._said.negation, (than,), _CONFIDENCE, copied=False)
+        negation = self._gloss(self._said.negation, than)
         order = [*(at for at in range(len(said.glosses)) if at not in less), *less]
         return said.in_order(order).with_glosses(len(order), negation)
 
@@ -160,7 +204,7 @@ class Connectives:
         behind = next((at + 1 for at, gloss in enumerate(said.glosses) if gloss.sources == (noun,)), 0)
         if not behind:
             return said
-        return said.with_glosses(behind, OutputGloss(self._said.above, (place,), _CONFIDENCE, copied=False))
+        return said.with_glosses(behind, self._gloss(self._said.above, place))
 
 
 def _is_typed_with_care(words: Sequence[SourceWord]) -> bool:

@@ -90,9 +90,9 @@ class Objects:
             if not verbs or to_whom not in self._who.clitics.values():
                 continue
             who = words[verbs[0]].readings[0].tag.rsplit(":", 1)[-1]
-            is_reflexive = who[0] == to_whom[0]
-            # "quiere verme" may be said of who is named before.
-            if who in self._pointing and not is_reflexive and not (at_end and who.startswith(_THIRD)):
+            # "se me olvidó llamarte", "quiere verme": who feels, and who is named before.
+            is_open = at_end and who.startswith(_THIRD) and not _acts(words, verbs)
+            if who in self._pointing and who[0] != to_whom[0] and not is_open:  # else it is reflexive
                 yield _Deed(place, to_whom, who, verbs)
 
     def _with_actor(self, said: CompleteTranslation, deed: _Deed) -> CompleteTranslation:
@@ -180,12 +180,20 @@ def _up_to(words: Sequence[SourceWord], place: int) -> tuple[int, ...]:
     """Places of a verb that ends with a pronoun, and first of the one that says who: "ven a verme"."""
     if not _is(words[place], "V:inf"):
         return (place,)
+    done = (place, place + 1) if _is(words[place + 1], "V:part") else (place,)  # haberme llamado
     for before in range(place - 1, -1, -1):
         if _is(words[before], (*_FINITE, "V:imp")):
-            return (before, place)
+            return (before, *done)
         if not _is(words[before], (*_LINKS, *_GOVERNED)):
             break
     return ()
+
+
+def _acts(words: Sequence[SourceWord], verbs: tuple[int, ...]) -> bool:
+    """Whether one who is not named goes on or begins to do it: "volvió a llamarme", no "ven a verme"."""
+    governs = len(verbs) > 1 and _is(words[verbs[0] + 1], "PREP")
+    may_ask = verbs[0] == 0 and _is(words[0], "V:ind:pres")
+    return governs and not may_ask and not (verbs[0] > 0 and _is(words[verbs[0] - 1], _CLITICS))
 
 
 def _person(name: str, source: int) -> OutputGloss:

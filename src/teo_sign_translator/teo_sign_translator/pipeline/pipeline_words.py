@@ -107,6 +107,10 @@ class ConnectiveWords:
         preferring: Verbs of liking more.
         negation: Gloss that denies.
         rather: Gloss of "but" behind what is denied.
+        span: The two words of a span of numbers: from, to.
+        until: Gloss between these.
+        together: Gloss of "with".
+        of: Word of what something belongs to.
         little: Word that means "almost" between the preposition of reasons and a verb.
         almost: Gloss of that.
     """
@@ -121,6 +125,10 @@ class ConnectiveWords:
     preferring: frozenset[str]
     negation: str
     rather: str
+    span: tuple[str, ...]
+    until: str
+    together: str
+    of: str
     little: str
     almost: str
 

@@ -11,7 +11,7 @@ beside theirs: "aunque esté cansada, voy a salir", "si Ana viviera aquí, estar
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 
 from teo_sign_translator.morphology import Reading
@@ -57,7 +57,7 @@ class Subjects:
             words: Of the sentence.
             said: A translation of it.
         """
-        said = _with_nobody_first(words, said)
+        said = _with_nobody_first(words, said, self._who.pointing.values())
         glosses: list[OutputGloss] = []
         put_back: list[bool] = []
         left: tuple[int, ...] = ()
@@ -206,10 +206,13 @@ class Subjects:
         )
 
 
-def _with_nobody_first(words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+def _with_nobody_first(
+    words: Sequence[SourceWord], said: CompleteTranslation, persons: Collection[str]
+) -> CompleteTranslation:
     """The same with nobody, as a subject, before the object: YO EXPLICAR NADIE says another thing."""
     alone = [gloss.sources[0] if len(gloss.sources) == 1 else -1 for gloss in said.glosses]
-    objects = [at for at, place in enumerate(alone) if place >= 0 and _is(words[place], "PRON:obj")]
+    pointing = [gloss.sources if gloss.gloss in persons else () for gloss in said.glosses]
+    objects = [at for at, own in enumerate(pointing) if any(_is(words[place], "PRON:obj") for place in own)]
     nobody = (
         at
         for at, place in enumerate(alone)

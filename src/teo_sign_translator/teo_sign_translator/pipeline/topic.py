@@ -77,7 +77,8 @@ class Topics:
                 verb = max(at for at, each in enumerate(glosses) if {*gloss.sources} & {*each.sources})
                 others = (*glosses[before + 1 : place], *glosses[place + 1 : verb + 1])
                 named = any(self.may_do(words[source]) for each in others for source in each.sources)
-                if not named and not _in_relative_clause(words, min(gloss.sources)):
+                acts_on = glosses[place + 1].gloss in self.subjects if place + 1 < len(glosses) else False
+                if not named and not acts_on and not _in_relative_clause(words, min(gloss.sources)):
                     result.append(place)
             if ending or self._typed(words, gloss):
                 before = place

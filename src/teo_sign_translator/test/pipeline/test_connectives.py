@@ -76,6 +76,10 @@ def test_what_something_lies_on_is_said_where_a_model_leaves_it_out(sentence: st
         ("No quiero café sino té.", "YO CAFÉ NO TÉ QUERER"),
         ("Mi madre no sabe que fumo.", "MADRE MI SABER NO YO FUMAR"),
         ("no se que hacer", "YO HACER QUÉ SABER NO"),
+        ("Trabajo de ocho a tres.", "HORA 8 HASTA 3 YO TRABAJAR"),
+        ("Mi coche es más viejo que el tuyo.", "COCHE MI COCHE TU VIEJO MÁS"),
+        ("La amiga que vive contigo es sorda.", "AMIGO CON TÚ VIVIR SORDO"),
+        ("Este chico me toma el pelo.", "ESTE CHICO YO BURLAR"),
     ],
 )
 def test_what_is_denied_asked_or_hardly_happens_is_that_alone(sentence: str, glosses: str) -> None:
