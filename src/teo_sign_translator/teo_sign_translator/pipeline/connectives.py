@@ -79,15 +79,17 @@ class Connectives:
         return said
 
     def _with_companion(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
-        """The same with "with" where somebody only tells who is meant: "el chico que vive conmigo"."""
+        """The same with "with" or "for" where somebody only tells who is meant: "el que vive conmigo"."""
         for at, gloss in enumerate(said.glosses):
             place = gloss.sources[0] if len(gloss.sources) == 1 else 0
-            if not words[place].readings[0].tag.startswith("PRON:with"):
+            is_with = words[place].readings[0].tag.startswith("PRON:with")
+            name = self._said.together if is_with else self._said.companions.get(words[place - 1].form, "")
+            if not name or not words[place].readings[0].tag.startswith(("PRON:with", "PRON:prep")):
                 continue
             before = next((back for back in range(place, 0, -1) if words[back].form == self._said.than), 0)
             is_relative = before > 0 and words[before - 1].readings[0].tag.startswith("N:")
-            if is_relative and (at == 0 or said.glosses[at - 1].gloss != self._said.together):
-                return said.with_glosses(at, self._gloss(self._said.together, place))
+            if is_relative and (at == 0 or said.glosses[at - 1].gloss != name):
+                return said.with_glosses(at, self._gloss(name, place))
         return said
 
     def _with_compared(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
@@ -119,6 +121,8 @@ class Connectives:
             and words[at + 1].form == self._said.little
             and words[at + 2].readings[0].tag.startswith(_DONE)
         ]
+        if any(gloss.gloss == self._said.almost for gloss in said.glosses):
+            return said.without([at for at, gloss in enumerate(said.glosses) if gloss.sources in little])
         glosses = tuple(
             replace(gloss, gloss=self._said.almost) if gloss.sources in little else gloss
             for gloss in said.glosses

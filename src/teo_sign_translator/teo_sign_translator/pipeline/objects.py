@@ -25,6 +25,7 @@ _CLITICS = (_OBJECT, "PRON:refl")
 _SAYS_WHO = re.compile(r"V:ind:(?!impf).*:3s")
 #: What a clause ends with or opens with.
 _OPENING = ("MARK", "CONJ", "PRON:rel", "WH")
+_NOUNS = ("N:", "NAME")
 _THIRD = "3"
 _FINITE = ("V:ind", "V:sub", "V:cond")
 #: Of verbs that another one governs, and what may stand between the two.
@@ -57,6 +58,7 @@ class Objects:
         """Take how a language joins clauses and points at persons, and who may do things."""
         self._who = language.subjects
         self._pointing = language.subjects.pointing
+        self._towards, self._things = language.persons.towards, language.persons.things
         self._names = frozenset(self._pointing.values())
         self._experiencer_verbs = language.persons.experiencer_verbs
         self._topics = topics
@@ -74,7 +76,57 @@ class Objects:
                 said = self._with_both(words, said, deed)
             elif verbs:
                 said = self._with_actor(said, deed)
+        return self._with_actor_first(words, self._with_unnamed(words, said))
+
+    def _with_unnamed(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """The same with others who do it to whom a relative clause tells of: "el médico al que operaron"."""
+        for place in range(2, len(words)):
+            relative = (
+                words[place - 1].form == self._who.joiner and words[place - 1].readings[0].tag == "PRON:rel"
+            )
+            to_whom = any(word.form in self._towards for word in words[max(0, place - 3) : place - 1])
+            verb = words[place].readings[0].tag
+            stop = next((at for at in range(place, len(words)) if _is(words[at], _OPENING)), len(words))
+            named = any(self._topics.may_act(words, at) for at in range(place + 1, stop))
+            if (
+                not relative
+                or not to_whom
+                or not verb.startswith("V:ind")
+                or not verb.endswith(":3p")
+                or named
+            ):
+                continue
+            said_for = [at for at, gloss in enumerate(said.glosses) if place in gloss.sources]
+            if said_for and not any(said.glosses[at].gloss in self._names for at in said_for):
+                return said.with_glosses(said_for[0], _person(self._pointing["3p"], place))
         return said
+
+    def _with_actor_first(
+        self, words: Sequence[SourceWord], said: CompleteTranslation
+    ) -> CompleteTranslation:
+        """The same with who does it before whom it is done to: "al perro lo persigue el gato"."""
+        clitic = next(
+            (at for at, word in enumerate(words) if word.form in self._things and _is(word, _OBJECT)), 0
+        )
+        if clitic == 0 or words[0].form not in self._towards or not _behind(words, clitic):
+            return said
+        verb = _behind(words, clitic)[-1]
+        stop = next(
+            (at for at in range(verb + 1, len(words)) if _is(words[at], ("PREP", *_OPENING))), len(words)
+        )
+        if not any(self._topics.may_do(words[at]) and _is(words[at], _NOUNS) for at in range(verb + 1, stop)):
+            return said
+        own = [{*gloss.sources} for gloss in said.glosses]
+        first = [at for at, sources in enumerate(own) if sources and sources <= {*range(clitic)}]
+        then = [at for at, sources in enumerate(own) if sources and sources <= {*range(verb + 1, stop)}]
+        if (
+            not first
+            or not then
+            or [*first, *then] != list(range(first[0], first[0] + len(first) + len(then)))
+        ):
+            return said
+        rest = range(then[-1] + 1, len(own))
+        return said.in_order([*range(first[0]), *then, *first, *rest])
 
     def _deeds(self, words: Sequence[SourceWord]) -> Iterator[_Deed]:
         """What is done to the signer or the addressee: a pronoun before its verb, or at its end."""

@@ -110,6 +110,7 @@ class ConnectiveWords:
         span: The two words of a span of numbers: from, to.
         until: Gloss between these.
         together: Gloss of "with".
+        companions: Glosses of prepositions before a person.
         of: Word of what something belongs to.
         little: Word that means "almost" between the preposition of reasons and a verb.
         almost: Gloss of that.
@@ -128,6 +129,7 @@ class ConnectiveWords:
     span: tuple[str, ...]
     until: str
     together: str
+    companions: dict[str, str]
     of: str
     little: str
     almost: str

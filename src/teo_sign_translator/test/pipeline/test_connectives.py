@@ -79,6 +79,7 @@ def test_what_something_lies_on_is_said_where_a_model_leaves_it_out(sentence: st
         ("Trabajo de ocho a tres.", "HORA 8 HASTA 3 YO TRABAJAR"),
         ("Mi coche es más viejo que el tuyo.", "COCHE MI COCHE TU VIEJO MÁS"),
         ("La amiga que vive contigo es sorda.", "AMIGO CON TÚ VIVIR SORDO"),
+        ("El hombre que trabaja para mí es rico.", "HOMBRE PARA YO TRABAJAR RICO"),
         ("Este chico me toma el pelo.", "ESTE CHICO YO BURLAR"),
     ],
 )

@@ -61,6 +61,12 @@ def meant(rule: Objects | Wishes, sentence: str, model: str) -> str:
         ("¿Quién te llamó?", "TÚ/te LLAMAR/llamó QUIÉN/quién", "TÚ LLAMAR QUIÉN"),
         ("¿Me ayuda?", "AYUDAR/ayuda", "AYUDAR"),  # the addressee, politely
         ("La mujer que me llamó.", "MUJER/mujer YO/me LLAMAR/llamó", "MUJER YO LLAMAR"),
+        # Who does it stands first, and others do what nobody is named for.
+        ("Al perro lo persigue el gato.", "PERRO/perro GATO/gato PERSEGUIR/persigue", "GATO PERRO PERSEGUIR"),
+        ("Al perro lo lavamos.", "PERRO/perro NOSOTROS/lavamos LAVAR/lavamos", "PERRO NOSOTROS LAVAR"),
+        ("El gato persigue al perro.", "GATO/gato PERRO/perro PERSEGUIR/persigue", "GATO PERRO PERSEGUIR"),
+        ("El médico al que operaron.", "MÉDICO/médico OPERAR/operaron", "MÉDICO ELLOS OPERAR"),
+        ("El niño al que cuidan mis padres.", "NIÑO/niño PADRES/padres CUIDAR/cuidan", "NIÑO PADRES CUIDAR"),
         # Nobody does it.
         ("Me duele mucho.", "YO/me DOLER/duele MUCHO/mucho", "YO DOLER MUCHO"),
         ("Me gusta llamar.", "YO/me LLAMAR/llamar GUSTAR/gusta", "YO LLAMAR GUSTAR"),
