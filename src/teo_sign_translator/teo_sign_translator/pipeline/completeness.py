@@ -31,6 +31,9 @@ from teo_sign_translator.text.source_word import SourceWord
 #: that its sentence is called uncertain.
 _PUT_BACK_CONFIDENCE = 0.2
 
+#: Of a gloss that a rule reads from the words.
+_READ_CONFIDENCE = 0.9
+
 #: Of a courtesy: it stands first or last, as typed, and changes nothing else in the sentence.
 _COURTESY_CONFIDENCE = 0.9
 
@@ -69,6 +72,11 @@ class CompleteTranslation:
         return replace(
             self, glosses=(*self.glosses[:place], *glosses, *self.glosses[place:]), put_back=put_back
         )
+
+
+def read_gloss(name: str, place: int) -> OutputGloss:
+    """A gloss that the word at a place asks for, by what stands around it."""
+    return OutputGloss(name, (place,), _READ_CONFIDENCE, copied=False)
 
 
 class FunctionWords:

@@ -15,13 +15,13 @@ from dataclasses import replace
 from pathlib import Path
 
 from teo_sign_translator.morphology.lexicon import nouns
-from teo_sign_translator.pipeline.completeness import CompleteTranslation
+from teo_sign_translator.pipeline.completeness import CompleteTranslation, read_gloss
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.text.source_word import SourceWord
 
 #: Classes of nouns through which, by which or at which something is done.
-_WAYS = frozenset({"place", "building", "room", "body", "time"})
+_WAYS = frozenset({"place", "building", "room", "furniture", "body", "time"})
 #: Classes of nouns on which something may lie.
 _BEARERS = frozenset({"furniture", "object", "device", "vehicle", "container", "body", "music", "room"})
 #: Classes on which nothing lies.
@@ -32,11 +32,8 @@ _AGENTS = frozenset({"person", "family", "profession", "animal", "group"})
 _SURFACES = frozenset({"furniture", "room"})
 #: What may stand between a preposition and its noun, and between what is spoken of and the preposition.
 _BETWEEN = ("DET", "A:", "NUM", "ADV", "PRON:obj")
-_POSSESSIVES = ("DET:poss", "PRON:poss")
 #: What begins something that is done.
 _DONE = ("V:ind", "PRON:obj", "PRON:refl", "ADV:neg")
-#: Of a gloss that its preposition and noun ask for.
-_CONFIDENCE = 0.9
 
 
 class Connectives:
@@ -65,18 +62,7 @@ class Connectives:
             claimed = any(place in gloss.sources for gloss in said.glosses)
             if word.form == self._said.upon and not claimed and self._bears(words, place):
                 said = self._with_above(said, place, _noun_behind(words, place))
-        said = self._with_compared(words, self._with_companion(words, self._with_span(words, said)))
-        return self._with_opposite(self._with_less_liked(words, said))
-
-    def _with_span(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
-        """The same with "until" between two numbers of a span: "de nueve a dos" is no 9:02."""
-        for place in range(3, len(words)):
-            first, last = words[place - 2].readings[0].tag, words[place].readings[0].tag
-            span = (words[place - 3].form, words[place - 1].form) == self._said.span
-            to = next((at for at, gloss in enumerate(said.glosses) if gloss.sources == (place,)), 0)
-            if span and first == last == "NUM" and to and place - 2 in said.glosses[to - 1].sources:
-                return said.with_glosses(to, self._gloss(self._said.until, place - 1))
-        return said
+        return self._with_companion(words, said)
 
     def _with_companion(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """The same with "with" or "for" where somebody only tells who is meant: "el que vive conmigo"."""
@@ -86,31 +72,11 @@ class Connectives:
             name = self._said.together if is_with else self._said.companions.get(words[place - 1].form, "")
             if not name or not words[place].readings[0].tag.startswith(("PRON:with", "PRON:prep")):
                 continue
-            before = next((back for back in range(place, 0, -1) if words[back].form == self._said.than), 0)
+            before = next((back for back in range(place, 0, -1) if words[back].form == self._said.that), 0)
             is_relative = before > 0 and words[before - 1].readings[0].tag.startswith("N:")
             if is_relative and (at == 0 or said.glosses[at - 1].gloss != name):
-                return said.with_glosses(at, self._gloss(name, place))
+                return said.with_glosses(at, read_gloss(name, place))
         return said
-
-    def _with_compared(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
-        """The same with what is compared named twice: "que el nuestro", "que las de ayer"."""
-        for than in range(1, len(words) - 2):
-            article, other = words[than + 1].readings[0].tag, words[than + 2]
-            belongs = other.form == self._said.of or other.readings[0].tag.startswith(_POSSESSIVES)
-            compares = words[than].form == self._said.than and article.startswith("DET:def") and belongs
-            if not compares or any(gloss.sources == (than,) for gloss in said.glosses):
-                continue
-            noun = next((at for at in range(than) if words[at].readings[0].tag.startswith("N:")), -1)
-            own = (each.gloss for each in said.glosses if each.copied and noun in each.sources)
-            behind = (at for at, each in enumerate(said.glosses) if min(each.sources, default=0) > than)
-            name, place = next(own, ""), next(behind, -1)
-            if name and place >= 0:
-                return said.with_glosses(place, self._gloss(name, than + 1))
-        return said
-
-    @staticmethod
-    def _gloss(name: str, place: int) -> OutputGloss:
-        return OutputGloss(name, (place,), _CONFIDENCE, copied=False)
 
     def _with_almost(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """The same with what almost happened: "por poco pierdo el tren", but not "por poco dinero"."""
@@ -128,31 +94,6 @@ class Connectives:
             for gloss in said.glosses
         )
         return replace(said, glosses=glosses)
-
-    def _with_less_liked(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
-        """The same with "not" behind what is liked less: PREFERIR LEER SALIR NO."""
-        liking = [at for at, word in enumerate(words) if word.readings[0].lemma in self._said.preferring]
-        than = next((at for at, word in enumerate(words) if word.form == self._said.than), 0)
-        if not liking or than <= liking[0] + 1 or words[-1].form == "?":
-            return said
-        said_behind = ({*gloss.sources} - {*liking} for gloss in said.glosses)
-        less = [at for at, sources in enumerate(said_behind) if sources and min(sources) > than]
-        if not less or len(less) == len(said.glosses):
-            return said
-        negation = self._gloss(self._said.negation, than)
-        order = [*(at for at in range(len(said.glosses)) if at not in less), *less]
-        return said.in_order(order).with_glosses(len(order), negation)
-
-    def _with_opposite(self, said: CompleteTranslation) -> CompleteTranslation:
-        """The same with "not" behind what is denied alone: "no quiero café, sino té" is CAFÉ NO TÉ QUERER."""
-        denied = [at for at, gloss in enumerate(said.glosses) if gloss.gloss == self._said.negation]
-        rather = [at for at, gloss in enumerate(said.glosses) if gloss.gloss == self._said.rather]
-        if not denied or not rather:
-            return said
-        sources = {*said.glosses[denied[-1]].sources, *said.glosses[rather[0]].sources}
-        negation = replace(said.glosses[denied[-1]], sources=tuple(sorted(sources)))
-        place = min(denied[-1], rather[0])
-        return said.without([rather[0], denied[-1]]).with_glosses(place, negation)
 
     def _is_wrong(self, words: Sequence[SourceWord], gloss: OutputGloss) -> bool:
         if gloss.gloss == self._said.what:
@@ -177,12 +118,12 @@ class Connectives:
         """Whether "que" asks nothing: typed with care it is no "qué", but in "no sé que hacer"."""
         follows = words[place + 1 :]
         asks = bool(follows) and follows[0].readings[0].tag == "V:inf"
-        return words[place].form == self._said.than and _is_typed_with_care(words) and not asks
+        return words[place].form == self._said.that and _is_typed_with_care(words) and not asks
 
     def _compares(self, words: Sequence[SourceWord], place: int) -> bool:
         """Whether a word asks nothing, but names what is liked less: "prefiero leer que salir"."""
         preferred = any(word.readings[0].lemma in self._said.preferring for word in words[:place])
-        return preferred and words[place].form == self._said.than and words[-1].form != "?"
+        return preferred and words[place].form == self._said.that and words[-1].form != "?"
 
     def _is_about(self, words: Sequence[SourceWord], place: int) -> bool:
         """Whether what stands before a preposition can be about something, and not lie on what is behind."""
@@ -208,7 +149,7 @@ class Connectives:
         behind = next((at + 1 for at, gloss in enumerate(said.glosses) if gloss.sources == (noun,)), 0)
         if not behind:
             return said
-        return said.with_glosses(behind, self._gloss(self._said.above, place))
+        return said.with_glosses(behind, read_gloss(self._said.above, place))
 
 
 def _is_typed_with_care(words: Sequence[SourceWord]) -> bool:

@@ -13,10 +13,9 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from teo_sign_translator.pipeline.completeness import CompleteTranslation
+from teo_sign_translator.pipeline.completeness import CompleteTranslation, read_gloss
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pipeline.topic import Topics
-from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.text.source_word import SourceWord
 
 _OBJECT = "PRON:obj:"
@@ -31,8 +30,6 @@ _FINITE = ("V:ind", "V:sub", "V:cond")
 #: Of verbs that another one governs, and what may stand between the two.
 _GOVERNED = ("V:inf", "V:ger", "V:part")
 _LINKS = ("PREP", "CONJ", "PRON:rel", "ADV")
-#: Of a person that the pronoun or the ending says.
-_CONFIDENCE = 0.9
 
 
 class _Deed(NamedTuple):
@@ -98,7 +95,7 @@ class Objects:
                 continue
             said_for = [at for at, gloss in enumerate(said.glosses) if place in gloss.sources]
             if said_for and not any(said.glosses[at].gloss in self._names for at in said_for):
-                return said.with_glosses(said_for[0], _person(self._pointing["3p"], place))
+                return said.with_glosses(said_for[0], read_gloss(self._pointing["3p"], place))
         return said
 
     def _with_actor_first(
@@ -156,7 +153,7 @@ class Objects:
             return said
         place = min(own[0], verbs[0])
         typed = place > 0 and said.glosses[place - 1].gloss == who
-        return said if typed else said.with_glosses(place, _person(who, deed.verbs[0]))
+        return said if typed else said.with_glosses(place, read_gloss(who, deed.verbs[0]))
 
     def _with_both(
         self, words: Sequence[SourceWord], said: CompleteTranslation, deed: _Deed
@@ -164,8 +161,8 @@ class Objects:
         """The same with who is not named and whom he does it to: "ayer me llamó", never AYER YO LLAMAR."""
         own, verbs = self._said(said, deed)
         pointed = [said.glosses[at].gloss for at in own]
-        who = _person(self._pointing[deed.who], deed.verbs[0])
-        to_whom = _person(self._pointing[deed.to_whom], deed.clitic)
+        who = read_gloss(self._pointing[deed.who], deed.verbs[0])
+        to_whom = read_gloss(self._pointing[deed.to_whom], deed.clitic)
         if who.gloss in pointed or not self._is_deed(words, deed) or self._is_named(words, deed):
             return said
         if to_whom.gloss not in pointed:
@@ -246,10 +243,6 @@ def _acts(words: Sequence[SourceWord], verbs: tuple[int, ...]) -> bool:
     governs = len(verbs) > 1 and _is(words[verbs[0] + 1], "PREP")
     may_ask = verbs[0] == 0 and _is(words[0], "V:ind:pres")
     return governs and not may_ask and not (verbs[0] > 0 and _is(words[verbs[0] - 1], _CLITICS))
-
-
-def _person(name: str, source: int) -> OutputGloss:
-    return OutputGloss(name, (source,), _CONFIDENCE, copied=False)
 
 
 def _is(word: SourceWord, tags: str | tuple[str, ...]) -> bool:

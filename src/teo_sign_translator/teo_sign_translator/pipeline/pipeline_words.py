@@ -94,7 +94,7 @@ class SubjectWords:
 
 @dataclass(frozen=True)
 class ConnectiveWords:
-    """Prepositions and "than", which mean more than one thing; the section `connectives`. All may be empty.
+    """Prepositions and "that", which mean more than one thing; the section `connectives`. All may be empty.
 
     Attributes:
         through: Preposition of reasons, of ways, and of who did it.
@@ -102,16 +102,11 @@ class ConnectiveWords:
         upon: Preposition of what is spoken of, and of what something lies on.
         above: Gloss of the place above.
         about: Verbs and nouns that are about something.
-        than: Word before what is liked less, which also asks.
+        that: Word that joins, compares and asks.
         what: Gloss that asks.
-        preferring: Verbs of liking more.
-        negation: Gloss that denies.
-        rather: Gloss of "but" behind what is denied.
-        span: The two words of a span of numbers: from, to.
-        until: Gloss between these.
+        preferring: Verbs behind which it compares.
         together: Gloss of "with".
         companions: Glosses of prepositions before a person.
-        of: Word of what something belongs to.
         little: Word that means "almost" between the preposition of reasons and a verb.
         almost: Gloss of that.
     """
@@ -121,18 +116,66 @@ class ConnectiveWords:
     upon: str
     above: str
     about: frozenset[str]
-    than: str
+    that: str
     what: str
     preferring: frozenset[str]
-    negation: str
-    rather: str
-    span: tuple[str, ...]
-    until: str
     together: str
     companions: dict[str, str]
-    of: str
     little: str
     almost: str
+
+
+@dataclass(frozen=True)
+class ComparisonWords:
+    """What is compared; the section `comparisons`. All may be empty.
+
+    Attributes:
+        than: Word before the second of what is compared.
+        of: Word of what something belongs to.
+        preferring: Verbs of liking more.
+    """
+
+    than: str
+    of: str
+    preferring: frozenset[str]
+
+
+@dataclass(frozen=True)
+class DenialWords:
+    """What is denied; the section `denials`. All may be empty.
+
+    Attributes:
+        denying: Word that denies.
+        negation: Its gloss.
+        negatives: Glosses that deny and say more.
+        rather: Gloss of "but" behind what is denied.
+    """
+
+    denying: str
+    negation: str
+    negatives: frozenset[str]
+    rather: str
+
+
+@dataclass(frozen=True)
+class CountWords:
+    """How many; the section `counts`. All may be empty.
+
+    Attributes:
+        one: Articles that count, before a measure or behind "only".
+        only: Words of "only".
+        measures: Nouns of measures.
+        is_verb: Verb behind which an article never counts: "solo era un susto".
+        span: The two words of a span of numbers: from, to.
+        until: Gloss between these.
+    """
+
+    one: frozenset[str]
+    only: frozenset[str]
+    measures: frozenset[str]
+    is_verb: str
+    span: tuple[str, ...]
+    until: str
 
 
 @dataclass(frozen=True)
@@ -165,6 +208,9 @@ class PipelineWords:
         persons: Who acts on whom.
         subjects: Who does what a verb says.
         connectives: Which mean more than one thing.
+        comparisons: What is compared.
+        denials: What is denied.
+        counts: How many.
         reliability: How likely a translation is right.
     """
 
@@ -172,6 +218,9 @@ class PipelineWords:
     persons: PersonWords
     subjects: SubjectWords
     connectives: ConnectiveWords
+    comparisons: ComparisonWords
+    denials: DenialWords
+    counts: CountWords
     reliability: ReliabilityWeights
 
     @classmethod
@@ -187,6 +236,9 @@ class PipelineWords:
             "persons": PersonWords,
             "subjects": SubjectWords,
             "connectives": ConnectiveWords,
+            "comparisons": ComparisonWords,
+            "denials": DenialWords,
+            "counts": CountWords,
             "reliability": ReliabilityWeights,
         }
         return cls(**read_sections(folder / _FILE, sections))

@@ -21,8 +21,11 @@ from teo_sign_translator.output.output_words import PAUSE, OutputWord, carried, 
 from teo_sign_translator.output.translation import Kind, Origin
 from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.back_end import TranslatedSentence
+from teo_sign_translator.pipeline.comparisons import Comparisons
 from teo_sign_translator.pipeline.completeness import Completeness, CompleteTranslation
 from teo_sign_translator.pipeline.connectives import Connectives
+from teo_sign_translator.pipeline.counts import Counts
+from teo_sign_translator.pipeline.denials import Denials
 from teo_sign_translator.pipeline.objects import Objects
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pipeline.reliability import features, reliability
@@ -116,6 +119,9 @@ class PointerBackEnd:
         language = PipelineWords.load(morphology.folder)
         self._meaning = (
             Connectives(morphology.folder),
+            Counts(language),
+            Comparisons(language),
+            Denials(language),
             Subjects(language, self._topics),
             Wishes(language, self._topics),
             Objects(language, self._topics),

@@ -11,10 +11,9 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from teo_sign_translator.pipeline.completeness import CompleteTranslation
+from teo_sign_translator.pipeline.completeness import CompleteTranslation, read_gloss
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pipeline.topic import Topics
-from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.text.source_word import SourceWord
 
 _WISHED = re.compile(r"V:sub:.*:(3[sp])")
@@ -25,8 +24,6 @@ _BETWEEN = ("ADV", *_CLITICS)
 _PERSONS = ("N:", "NAME", "PRON")
 _SIGNERS = re.compile(r"V:.*:1[sp]")
 _FELT = "PRON:obj:1"
-#: Of a person that the verb's ending or the pronoun says.
-_CONFIDENCE = 0.9
 
 
 class Wishes:
@@ -93,7 +90,7 @@ class Wishes:
         )
         while place > 0 and behind[place - 1]:
             place -= 1
-        who = OutputGloss(self._who.pointing[person], (verb,), _CONFIDENCE, copied=False)
+        who = read_gloss(self._who.pointing[person], verb)
         clitic = words[verb - 1].readings[0].tag.removeprefix(_CLITICS[0])
         to_whom = self._who.pointing[clitic] if clitic in self._who.clitics.values() else ""
         own = [gloss for at, gloss in enumerate(said.glosses) if behind[at] and gloss.gloss in self._names]
@@ -104,5 +101,5 @@ class Wishes:
         # One that no word says is this one, at another place.
         again = [at for at, gloss in enumerate(said.glosses) if not gloss.sources and gloss.gloss == to_whom]
         place -= sum(at < place for at in again)
-        done_to = OutputGloss(to_whom, (verb - 1,), _CONFIDENCE, copied=False)
+        done_to = read_gloss(to_whom, verb - 1)
         return said.without(again).with_glosses(place, who, done_to)

@@ -45,7 +45,7 @@ def said(sentence: str, *, model: bool) -> str:
         ("Leí un libro muy largo sobre coches.", "LIBRO COCHES"),
         ("Hablamos sobre la casa.", "CASA"),
         ("Me aconsejó sobre la herencia.", "HERENCIA"),
-        ("Prefiero el tren que el coche.", "TREN COCHE NO"),
+        ("Prefiero el tren que el coche.", "TREN COCHE"),
         ("Prefiero que el tren salga.", "TREN"),
         ("¿Prefieres que te diga que tren sale?", "QUÉ QUÉ TREN"),
     ],
@@ -66,25 +66,6 @@ def test_a_reason_or_a_place_is_said_only_where_it_is_meant(sentence: str, meant
 )
 def test_what_something_lies_on_is_said_where_a_model_leaves_it_out(sentence: str, meant: str) -> None:
     assert said(sentence, model=False) == meant
-
-
-@pytest.mark.parametrize(
-    ("sentence", "glosses"),
-    [
-        ("Por poco pierdo el tren.", "YO TREN PERDER CASI"),
-        ("No es caro, sino barato.", "CARO NO BARATO"),
-        ("No quiero café sino té.", "YO CAFÉ NO TÉ QUERER"),
-        ("Mi madre no sabe que fumo.", "MADRE MI SABER NO YO FUMAR"),
-        ("no se que hacer", "YO HACER QUÉ SABER NO"),
-        ("Trabajo de ocho a tres.", "HORA 8 HASTA 3 YO TRABAJAR"),
-        ("Mi coche es más viejo que el tuyo.", "COCHE MI COCHE TU VIEJO MÁS"),
-        ("La amiga que vive contigo es sorda.", "AMIGO CON TÚ VIVIR SORDO"),
-        ("El hombre que trabaja para mí es rico.", "HOMBRE PARA YO TRABAJAR RICO"),
-        ("Este chico me toma el pelo.", "ESTE CHICO YO BURLAR"),
-    ],
-)
-def test_what_is_denied_asked_or_hardly_happens_is_that_alone(sentence: str, glosses: str) -> None:
-    assert str(translator().translate(sentence)) == glosses
 
 
 def test_what_is_spoken_of_is_neither_above_nor_spelled() -> None:

@@ -1,0 +1,75 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""What is compared with what: each by its noun, and what is liked less behind what is liked.
+
+LSE names both and then the quality (X Y SUP, in the notation of the LSE-UVIGO corpus: X Y MÁS ALTO). A
+pronoun that Spanish puts in place of the second noun, "el nuestro", would be read as the owner of the first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from teo_sign_translator.pipeline.completeness import CompleteTranslation, read_gloss
+from teo_sign_translator.pipeline.pipeline_words import PipelineWords
+from teo_sign_translator.text.source_word import SourceWord
+
+_POSSESSIVES = ("DET:poss", "PRON:poss")
+
+
+class Comparisons:
+    """Reads what a language compares."""
+
+    def __init__(self, language: PipelineWords) -> None:
+        """Take how a language compares and denies."""
+        self._said = language.comparisons
+        self._negation = language.denials.negation
+        self._towards = language.persons.towards
+
+    def read(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """A translation in which both are named, and the one that is liked less is denied.
+
+        Args:
+            words: Of the sentence.
+            said: A translation of it.
+        """
+        return self._with_less_liked(words, self._with_compared(words, said))
+
+    def _with_compared(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """The same with what is compared named twice: "que el nuestro", "que las de ayer"."""
+        for than in range(1, len(words) - 2):
+            article, other = words[than + 1].readings[0].tag, words[than + 2]
+            belongs = other.form == self._said.of or other.readings[0].tag.startswith(_POSSESSIVES)
+            compares = words[than].form == self._said.than and article.startswith("DET:def") and belongs
+            if not compares or any(gloss.sources == (than,) for gloss in said.glosses):
+                continue
+            noun = next((at for at in range(than) if words[at].readings[0].tag.startswith("N:")), -1)
+            own = (each.gloss for each in said.glosses if each.copied and noun in each.sources)
+            behind = (at for at, each in enumerate(said.glosses) if min(each.sources, default=0) > than)
+            name, place = next(own, ""), next(behind, -1)
+            if name and place >= 0:
+                return said.with_glosses(place, read_gloss(name, than + 1))
+        return said
+
+    def _with_less_liked(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """The same with "not" behind what is liked less: PREFERIR LEER SALIR NO."""
+        liking = [at for at, word in enumerate(words) if word.readings[0].lemma in self._said.preferring]
+        than = self._than(words, liking[0]) if liking and words[-1].form != "?" else 0
+        said_behind = ({*gloss.sources} - {*liking} for gloss in said.glosses)
+        less = [at for at, sources in enumerate(said_behind) if sources and min(sources) > than]
+        if not than or not less or len(less) == len(said.glosses):
+            return said
+        order = [*(at for at in range(len(said.glosses)) if at not in less), *less]
+        return said.in_order(order).with_glosses(len(order), read_gloss(self._negation, than))
+
+    def _than(self, words: Sequence[SourceWord], liking: int) -> int:
+        """Place of the word before what is liked less: "leer que salir", "el té al café"; 0 for none."""
+        than = next((at for at, word in enumerate(words) if word.form == self._said.than), 0)
+        if than > liking + 1:
+            return than
+        if than or liking + 2 >= len(words) or not words[liking + 1].readings[0].tag.startswith("DET"):
+            return 0
+        behind = (at for at in range(liking + 2, len(words)) if words[at].form in self._towards)
+        to = next(behind, 0)
+        between = [word.readings[0].tag for word in words[liking + 2 : to]]
+        return to if to and all(tag.startswith(("N:", "A:")) for tag in between) else 0

@@ -1,0 +1,53 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""How many: an article that counts, and two numbers with what lies between them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+from teo_sign_translator.pipeline.completeness import CompleteTranslation, read_gloss
+from teo_sign_translator.pipeline.pipeline_words import PipelineWords
+from teo_sign_translator.text.source_word import SourceWord
+
+
+class Counts:
+    """Reads how many a language says."""
+
+    def __init__(self, language: PipelineWords) -> None:
+        """Take how a language counts."""
+        self._said = language.counts
+
+    def read(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """A translation in which numbers are said that the model leaves out.
+
+        Args:
+            words: Of the sentence.
+            said: A translation of it.
+        """
+        return self._with_one(words, self._with_span(words, said))
+
+    def _with_one(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """The same with "1" where an article counts: "una hora", "solo hay una mujer"."""
+        for place, (word, noun) in enumerate(pairwise(words)):
+            is_said = place > 0 and words[place - 1].readings[0].lemma == self._said.is_verb
+            only = not is_said and any(before.form in self._said.only for before in words[:place])
+            if word.form not in self._said.one or not (only or noun.form in self._said.measures):
+                continue
+            own = [{*gloss.sources} for gloss in said.glosses]
+            at = next((at for at, each in enumerate(own) if {place + 1} <= each <= {place, place + 1}), -1)
+            counted = any(gloss.gloss[0].isdigit() and place in gloss.sources for gloss in said.glosses)
+            if at >= 0 and not counted:
+                return said.with_glosses(at, read_gloss("1", place))
+        return said
+
+    def _with_span(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """The same with "until" between two numbers of a span: "de nueve a dos" is no 9:02."""
+        for place in range(3, len(words)):
+            first, last = words[place - 2].readings[0].tag, words[place].readings[0].tag
+            span = (words[place - 3].form, words[place - 1].form) == self._said.span
+            to = next((at for at, gloss in enumerate(said.glosses) if gloss.sources == (place,)), 0)
+            if span and first == last == "NUM" and to and place - 2 in said.glosses[to - 1].sources:
+                return said.with_glosses(to, read_gloss(self._said.until, place - 1))
+        return said

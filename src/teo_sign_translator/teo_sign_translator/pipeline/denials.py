@@ -1,0 +1,52 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""What "not" denies: one thing of two, and nothing again that "never" has denied already."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from teo_sign_translator.pipeline.completeness import CompleteTranslation
+from teo_sign_translator.pipeline.pipeline_words import PipelineWords
+from teo_sign_translator.text.source_word import SourceWord
+
+
+class Denials:
+    """Reads what a language denies."""
+
+    def __init__(self, language: PipelineWords) -> None:
+        """Take how a language denies."""
+        self._said = language.denials
+
+    def read(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """A translation in which "not" denies what is denied alone, and once.
+
+        Args:
+            words: Of the sentence.
+            said: A translation of it.
+        """
+        return self._with_opposite(self._with_one_denial(words, said))
+
+    def _with_one_denial(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """The same without "not" beside "never" or "nobody", which denies alone: "no friega nunca"."""
+        denied = [at for at, gloss in enumerate(said.glosses) if gloss.gloss == self._said.negation]
+        again = [at for at, gloss in enumerate(said.glosses) if gloss.gloss in self._said.negatives]
+        no = [place for place, word in enumerate(words) if word.form == self._said.denying]
+        if not len(denied) == len(again) == len(no) == 1 or said.glosses[denied[0]].sources != tuple(no):
+            return said
+        negative = said.glosses[again[0]]
+        glosses = list(said.glosses)
+        glosses[again[0]] = replace(negative, sources=tuple(sorted({*negative.sources, *no})))
+        return replace(said, glosses=tuple(glosses)).without(denied)
+
+    def _with_opposite(self, said: CompleteTranslation) -> CompleteTranslation:
+        """The same with "not" behind what is denied alone: "no quiero café, sino té" is CAFÉ NO TÉ QUERER."""
+        denied = [at for at, gloss in enumerate(said.glosses) if gloss.gloss == self._said.negation]
+        rather = [at for at, gloss in enumerate(said.glosses) if gloss.gloss == self._said.rather]
+        if not denied or not rather:
+            return said
+        sources = {*said.glosses[denied[-1]].sources, *said.glosses[rather[0]].sources}
+        negation = replace(said.glosses[denied[-1]], sources=tuple(sorted(sources)))
+        place = min(denied[-1], rather[0])
+        return said.without([rather[0], denied[-1]]).with_glosses(place, negation)

@@ -1,0 +1,33 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""What is compared, denied, counted or hardly happens, as a speaker of Spanish reads the sentence."""
+
+from __future__ import annotations
+
+import pytest
+from loaded import translator
+
+
+@pytest.mark.parametrize(
+    ("sentence", "glosses"),
+    [
+        ("Por poco pierdo el tren.", "YO TREN PERDER CASI"),
+        ("No es caro, sino barato.", "CARO NO BARATO"),
+        ("No quiero café sino té.", "YO CAFÉ NO TÉ QUERER"),
+        ("Mi madre no sabe que fumo.", "MADRE MI SABER NO YO FUMAR"),
+        ("no se que hacer", "YO HACER QUÉ SABER NO"),
+        ("Trabajo de ocho a tres.", "HORA 8 HASTA 3 YO TRABAJAR"),
+        ("Mi coche es más viejo que el tuyo.", "COCHE MI COCHE TU VIEJO MÁS"),
+        ("Prefiero el tren que el coche.", "YO PREFERIR TREN COCHE NO"),
+        ("Prefiero el té al café.", "YO TÉ MÁS PREFERIR CAFÉ NO"),
+        ("Prefiero ir a Madrid.", "YO PREFERIR MADRID IR"),
+        ("Solo tengo un hijo.", "YO SOLO 1 HIJO"),
+        ("Tengo una hija.", "YO HIJA"),
+        ("No te lo diré nunca.", "YO TÚ DECIR NUNCA"),
+        ("La amiga que vive contigo es sorda.", "AMIGO CON TÚ VIVIR SORDO"),
+        ("El hombre que trabaja para mí es rico.", "HOMBRE PARA YO TRABAJAR RICO"),
+        ("Este chico me toma el pelo.", "ESTE CHICO YO BURLAR"),
+    ],
+)
+def test_the_translator_says_what_the_words_mean(sentence: str, glosses: str) -> None:
+    assert str(translator().translate(sentence)) == glosses
