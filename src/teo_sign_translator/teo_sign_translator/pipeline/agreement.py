@@ -109,7 +109,7 @@ def _names_person(reading: Reading, people: frozenset[str]) -> bool:
 def _says_verb(words: Sequence[SourceWord]) -> bool:
     """Whether a verb is among the words of the same sentence."""
     start = max((index + 1 for index, word in enumerate(words) if word.form in _ENDS), default=0)
-    return any(word.readings[0].tag.startswith(_FINITE) for word in words[start:])
+    return any(word.tag.startswith(_FINITE) for word in words[start:])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -194,10 +194,10 @@ class _Clause:
         """Person behind "a": `ayudo a Ana`, `se lo doy a él`."""
         for place in range(self.verb + 1, len(self.words)):
             word = self.words[place]
-            if not word.readings[0].tag.startswith("PREP") or word.form not in self.said.towards:
+            if not word.tag.startswith("PREP") or word.form not in self.said.towards:
                 continue
             for word in self.words[place + 1 : place + 3]:
-                tag = word.readings[0].tag
+                tag = word.tag
                 if tag.startswith("PRON:prep:"):
                     return tag.removeprefix("PRON:prep:")[0]
                 if word.readings[0].lemma in self.said.subjects:
@@ -274,7 +274,7 @@ class _Clause:
 
     def _asks_politely(self) -> bool:
         """Whether `¿Me ayuda?` is asked of the addressee: a question that names no third person."""
-        tags = [word.readings[0].tag for word in self.words]
+        tags = [word.tag for word in self.words]
         return self.asks and not any(
             tag.startswith(("NAME", "PRON:3")) and tag != "NAME:place" for tag in tags
         )

@@ -38,12 +38,12 @@ class Comparisons:
     def _with_compared(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """The same with what is compared named twice: "que el nuestro", "que las de ayer"."""
         for than in range(1, len(words) - 2):
-            article, other = words[than + 1].readings[0].tag, words[than + 2]
-            belongs = other.form == self._said.of or other.readings[0].tag.startswith(_POSSESSIVES)
+            article, other = words[than + 1].tag, words[than + 2]
+            belongs = other.form == self._said.of or other.tag.startswith(_POSSESSIVES)
             compares = words[than].form == self._said.than and article.startswith("DET:def") and belongs
             if not compares or any(gloss.sources == (than,) for gloss in said.glosses):
                 continue
-            noun = next((at for at in range(than) if words[at].readings[0].tag.startswith("N:")), -1)
+            noun = next((at for at in range(than) if words[at].tag.startswith("N:")), -1)
             own = (each.gloss for each in said.glosses if each.copied and noun in each.sources)
             behind = (at for at, each in enumerate(said.glosses) if min(each.sources, default=0) > than)
             name, place = next(own, ""), next(behind, -1)
@@ -67,9 +67,9 @@ class Comparisons:
         than = next((at for at, word in enumerate(words) if word.form == self._said.than), 0)
         if than > liking + 1:
             return than
-        if than or liking + 2 >= len(words) or not words[liking + 1].readings[0].tag.startswith("DET"):
+        if than or liking + 2 >= len(words) or not words[liking + 1].tag.startswith("DET"):
             return 0
         behind = (at for at in range(liking + 2, len(words)) if words[at].form in self._towards)
         to = next(behind, 0)
-        between = [word.readings[0].tag for word in words[liking + 2 : to]]
+        between = [word.tag for word in words[liking + 2 : to]]
         return to if to and all(tag.startswith(("N:", "A:")) for tag in between) else 0

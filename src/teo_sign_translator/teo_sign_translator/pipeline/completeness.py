@@ -237,7 +237,7 @@ class Completeness:
             and not self.function_words.may_be_left_out(word)
             and not self._says_only_the_future(words, place)
             and not self._asks_for_agreement(words, place)
-            and not (exclaims and word.readings[0].tag.startswith("WH"))  # "¡Qué bonito!" asks nothing
+            and not (exclaims and word.tag.startswith("WH"))  # "¡Qué bonito!" asks nothing
         ]
 
     def _signed(self, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> list[list[int]]:

@@ -68,12 +68,12 @@ class Connectives:
         """The same with "with" or "for" where somebody only tells who is meant: "el que vive conmigo"."""
         for at, gloss in enumerate(said.glosses):
             place = gloss.sources[0] if len(gloss.sources) == 1 else 0
-            is_with = words[place].readings[0].tag.startswith("PRON:with")
+            is_with = words[place].tag.startswith("PRON:with")
             name = self._said.together if is_with else self._said.companions.get(words[place - 1].form, "")
-            if not name or not words[place].readings[0].tag.startswith(("PRON:with", "PRON:prep")):
+            if not name or not words[place].tag.startswith(("PRON:with", "PRON:prep")):
                 continue
             before = next((back for back in range(place, 0, -1) if words[back].form == self._said.that), 0)
-            is_relative = before > 0 and words[before - 1].readings[0].tag.startswith("N:")
+            is_relative = before > 0 and words[before - 1].tag.startswith("N:")
             if is_relative and (at == 0 or said.glosses[at - 1].gloss != name):
                 return said.with_glosses(at, read_gloss(name, place))
         return said
@@ -85,7 +85,7 @@ class Connectives:
             for at, word in enumerate(words[:-2])
             if word.form == self._said.through
             and words[at + 1].form == self._said.little
-            and words[at + 2].readings[0].tag.startswith(_DONE)
+            and words[at + 2].tag.startswith(_DONE)
         ]
         if any(gloss.gloss == self._said.almost for gloss in said.glosses):
             return said.without([at for at, gloss in enumerate(said.glosses) if gloss.sources in little])
@@ -117,7 +117,7 @@ class Connectives:
     def _joins(self, words: Sequence[SourceWord], place: int) -> bool:
         """Whether "que" asks nothing: typed with care it is no "qué", but in "no sé que hacer"."""
         follows = words[place + 1 :]
-        asks = bool(follows) and follows[0].readings[0].tag == "V:inf"
+        asks = bool(follows) and follows[0].tag == "V:inf"
         return words[place].form == self._said.that and _is_typed_with_care(words) and not asks
 
     def _compares(self, words: Sequence[SourceWord], place: int) -> bool:
@@ -127,17 +127,15 @@ class Connectives:
 
     def _is_about(self, words: Sequence[SourceWord], place: int) -> bool:
         """Whether what stands before a preposition can be about something, and not lie on what is behind."""
-        before = next(
-            (word for word in reversed(words[:place]) if not word.readings[0].tag.startswith(_BETWEEN)), None
-        )
+        before = next((word for word in reversed(words[:place]) if not word.tag.startswith(_BETWEEN)), None)
         if before is None or before.readings[0].lemma not in self._said.about:
             return False
-        lies = before.readings[0].tag.startswith("N")
+        lies = before.tag.startswith("N")
         return not lies or _SURFACES.isdisjoint(self._classes_of(words, _noun_behind(words, place)))
 
     def _bears(self, words: Sequence[SourceWord], place: int) -> bool:
         bearing = not _BEARERS.isdisjoint(self._classes_of(words, _noun_behind(words, place)))
-        is_preposition = words[place].readings[0].tag == "PREP"
+        is_preposition = words[place].tag == "PREP"
         return bearing and is_preposition and not self._is_about(words, place)
 
     def _classes_of(self, words: Sequence[SourceWord], place: int) -> Set[str]:
@@ -159,6 +157,6 @@ def _is_typed_with_care(words: Sequence[SourceWord]) -> bool:
 
 def _noun_behind(words: Sequence[SourceWord], place: int) -> int:
     """Where the noun of a preposition is; -1 if there is none."""
-    behind = (at for at in range(place + 1, len(words)) if not words[at].readings[0].tag.startswith(_BETWEEN))
+    behind = (at for at in range(place + 1, len(words)) if not words[at].tag.startswith(_BETWEEN))
     noun = next(behind, -1)
-    return noun if noun >= 0 and words[noun].readings[0].tag.startswith("N:") else -1
+    return noun if noun >= 0 and words[noun].tag.startswith("N:") else -1

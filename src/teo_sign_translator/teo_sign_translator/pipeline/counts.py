@@ -45,7 +45,7 @@ class Counts:
     def _with_span(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """The same with "until" between two numbers of a span: "de nueve a dos" is no 9:02."""
         for place in range(3, len(words)):
-            first, last = words[place - 2].readings[0].tag, words[place].readings[0].tag
+            first, last = words[place - 2].tag, words[place].tag
             span = (words[place - 3].form, words[place - 1].form) == self._said.span
             to = next((at for at, gloss in enumerate(said.glosses) if gloss.sources == (place,)), 0)
             if span and first == last == "NUM" and to and place - 2 in said.glosses[to - 1].sources:

@@ -22,6 +22,7 @@ _OBJECT = "PRON:obj:"
 _CLITICS = (_OBJECT, "PRON:refl")
 #: Of a verb that says by its form alone that it is neither the signer nor the addressee who does it.
 _SAYS_WHO = re.compile(r"V:ind:(?!impf).*:3s")
+_OTHERS = re.compile(r"V:ind:.*:3p")
 #: What a clause ends with or opens with.
 _OPENING = ("MARK", "CONJ", "PRON:rel", "WH")
 _NOUNS = ("N:", "NAME")
@@ -77,68 +78,50 @@ class Objects:
 
     def _with_unnamed(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """The same with others who do it to whom a relative clause tells of: "el médico al que operaron"."""
-        for place in range(2, len(words)):
-            relative = (
-                words[place - 1].form == self._who.joiner and words[place - 1].readings[0].tag == "PRON:rel"
-            )
-            to_whom = any(word.form in self._towards for word in words[max(0, place - 3) : place - 1])
-            verb = words[place].readings[0].tag
-            stop = next((at for at in range(place, len(words)) if _is(words[at], _OPENING)), len(words))
-            named = any(self._topics.may_act(words, at) for at in range(place + 1, stop))
-            if (
-                not relative
-                or not to_whom
-                or not verb.startswith("V:ind")
-                or not verb.endswith(":3p")
-                or named
-            ):
-                continue
-            said_for = [at for at, gloss in enumerate(said.glosses) if place in gloss.sources]
-            if said_for and not any(said.glosses[at].gloss in self._names for at in said_for):
-                return said.with_glosses(said_for[0], read_gloss(self._pointing["3p"], place))
+        for verb in range(2, len(words)):
+            relative = words[verb - 1].form == self._who.joiner and words[verb - 1].tag == "PRON:rel"
+            to_whom = any(word.form in self._towards for word in words[max(0, verb - 3) : verb - 1])
+            named = any(self._topics.may_act(words, at) for at in range(verb + 1, _end(words, verb)))
+            own = [at for at, gloss in enumerate(said.glosses) if verb in gloss.sources]
+            pointed = any(said.glosses[at].gloss in self._names for at in own)
+            if relative and to_whom and _OTHERS.fullmatch(words[verb].tag) and own and not (named or pointed):
+                return said.with_glosses(own[0], read_gloss(self._pointing["3p"], verb))
         return said
 
     def _with_actor_first(
         self, words: Sequence[SourceWord], said: CompleteTranslation
     ) -> CompleteTranslation:
         """The same with who does it before whom it is done to: "al perro lo persigue el gato"."""
-        clitic = next(
-            (at for at, word in enumerate(words) if word.form in self._things and _is(word, _OBJECT)), 0
-        )
-        if clitic == 0 or words[0].form not in self._towards or not _behind(words, clitic):
+        clitics = (at for at, word in enumerate(words) if word.form in self._things and _behind(words, at))
+        clitic = next(clitics, 0)
+        if clitic == 0 or words[0].form not in self._towards:
             return said
-        verb = _behind(words, clitic)[-1]
-        stop = next(
-            (at for at in range(verb + 1, len(words)) if _is(words[at], ("PREP", *_OPENING))), len(words)
-        )
-        if not any(self._topics.may_do(words[at]) and _is(words[at], _NOUNS) for at in range(verb + 1, stop)):
+        start = _behind(words, clitic)[-1] + 1
+        stop = _end(words, start, ("PREP", *_OPENING))
+        actor = words[start:stop]
+        if not any(self._topics.may_do(word) and word.tag.startswith(_NOUNS) for word in actor):
             return said
         own = [{*gloss.sources} for gloss in said.glosses]
         first = [at for at, sources in enumerate(own) if sources and sources <= {*range(clitic)}]
-        then = [at for at, sources in enumerate(own) if sources and sources <= {*range(verb + 1, stop)}]
-        if (
-            not first
-            or not then
-            or [*first, *then] != list(range(first[0], first[0] + len(first) + len(then)))
-        ):
+        then = [at for at, sources in enumerate(own) if sources and sources <= {*range(start, stop)}]
+        both = [*first, *then]
+        if not first or not then or both != list(range(both[0], both[-1] + 1)):
             return said
-        rest = range(then[-1] + 1, len(own))
-        return said.in_order([*range(first[0]), *then, *first, *rest])
+        return said.in_order([*range(first[0]), *then, *first, *range(then[-1] + 1, len(own))])
 
     def _deeds(self, words: Sequence[SourceWord]) -> Iterator[_Deed]:
         """What is done to the signer or the addressee: a pronoun before its verb, or at its end."""
         for place, word in enumerate(words):
             reading = word.readings[0]
-            at_end = next(
-                (self._who.clitics[each] for each in reading.clitics if each in self._who.clitics), ""
-            )
+            own = (self._who.clitics[each] for each in reading.clitics if each in self._who.clitics)
+            at_end = next(own, "")
             if at_end:
                 to_whom, verbs = at_end, _up_to(words, place)
             else:
                 to_whom, verbs = reading.tag.removeprefix(_OBJECT), _behind(words, place)
             if not verbs or to_whom not in self._who.clitics.values():
                 continue
-            who = words[verbs[0]].readings[0].tag.rsplit(":", 1)[-1]
+            who = words[verbs[0]].tag.rsplit(":", 1)[-1]
             # "se me olvidó llamarte", "quiere verme": who feels, and who is named before.
             is_open = at_end and who.startswith(_THIRD) and not _acts(words, verbs)
             if who in self._pointing and who[0] != to_whom[0] and not is_open:  # else it is reflexive
@@ -190,60 +173,60 @@ class Objects:
 
     def _is_named(self, words: Sequence[SourceWord], deed: _Deed) -> bool:
         """Whether the clause names who does it, is another's that does, or says that nobody does it."""
-        before, behind = range(deed.clitic, 0, -1), range(deed.verbs[-1] + 1, len(words))
-        start = next((at for at in before if _is(words[at - 1], _OPENING)), 0)
-        stop = next((at for at in behind if _is(words[at], _OPENING)), len(words))
+        before = range(deed.clitic, 0, -1)
+        start = next((at for at in before if words[at - 1].tag.startswith(_OPENING)), 0)
+        stop = _end(words, deed.verbs[-1] + 1)
         joined = start > 0 and words[start - 1].form == self._who.joiner
-        happens = any(
-            _is(words[at], "PRON:refl") for at in range(deed.clitic - 1, deed.verbs[0])
-        )  # se me olvidó
-        return (
-            joined
-            or happens
-            or any(
-                _is(words[at], ("PRON:", "WH"))
-                or (self._topics.may_act(words, at) and (at < deed.clitic or self._topics.may_do(words[at])))
-                for at in range(start, stop)
-                if not _is(words[at], _CLITICS)
-            )
-        )
+        pronouns = words[max(0, deed.clitic - 1) : deed.verbs[0]]
+        happens = any(word.tag.startswith("PRON:refl") for word in pronouns)  # se me olvidó
+        return joined or happens or any(self._may_be(words, at, deed) for at in range(start, stop))
+
+    def _may_be(self, words: Sequence[SourceWord], place: int, deed: _Deed) -> bool:
+        """Whether a word may name who does it; behind the verb only somebody does, no thing."""
+        word = words[place]
+        if word.tag.startswith(_CLITICS):
+            return False
+        names = self._topics.may_act(words, place) and (place < deed.clitic or self._topics.may_do(word))
+        return names or word.tag.startswith(("PRON:", "WH"))
+
+
+def _end(words: Sequence[SourceWord], place: int, tags: tuple[str, ...] = _OPENING) -> int:
+    """Where what stands at a place ends: before the next word of some kinds."""
+    return next((at for at in range(place, len(words)) if words[at].tag.startswith(tags)), len(words))
 
 
 def _behind(words: Sequence[SourceWord], clitic: int) -> tuple[int, ...]:
     """Places of the verb behind a pronoun and of those that it governs: "me van a operar"; or none."""
-    following = (at for at in range(clitic + 1, len(words)) if not _is(words[at], _CLITICS))
+    following = (at for at in range(clitic + 1, len(words)) if not words[at].tag.startswith(_CLITICS))
     finite = next(following, -1)
-    if not _is(words[clitic], _OBJECT) or finite < 0 or not _is(words[finite], _FINITE):
+    if not words[clitic].tag.startswith(_OBJECT) or finite < 0 or not words[finite].tag.startswith(_FINITE):
         return ()
     places = [finite]
     for place in range(finite + 1, len(words)):
         participle = place == finite + 1 and any(each.tag == "V:part:ms" for each in words[place].readings)
-        if participle or _is(words[place], _GOVERNED):  # "ha pedido" is no "pedido"
+        if participle or words[place].tag.startswith(_GOVERNED):  # "ha pedido" is no "pedido"
             places.append(place)
-        elif not _is(words[place], _LINKS):
+        elif not words[place].tag.startswith(_LINKS):
             break
     return tuple(places)
 
 
 def _up_to(words: Sequence[SourceWord], place: int) -> tuple[int, ...]:
     """Places of a verb that ends with a pronoun, and first of the one that says who: "ven a verme"."""
-    if not _is(words[place], "V:inf"):
+    if not words[place].tag.startswith("V:inf"):
         return (place,)
-    done = (place, place + 1) if _is(words[place + 1], "V:part") else (place,)  # haberme llamado
+    perfect = any(word.tag.startswith("V:part") for word in words[place + 1 : place + 2])  # haberme llamado
+    done = (place, place + 1) if perfect else (place,)
     for before in range(place - 1, -1, -1):
-        if _is(words[before], (*_FINITE, "V:imp")):
+        if words[before].tag.startswith((*_FINITE, "V:imp")):
             return (before, *done)
-        if not _is(words[before], (*_LINKS, *_GOVERNED)):
+        if not words[before].tag.startswith((*_LINKS, *_GOVERNED)):
             break
     return ()
 
 
 def _acts(words: Sequence[SourceWord], verbs: tuple[int, ...]) -> bool:
     """Whether one who is not named goes on or begins to do it: "volvió a llamarme", no "ven a verme"."""
-    governs = len(verbs) > 1 and _is(words[verbs[0] + 1], "PREP")
-    may_ask = verbs[0] == 0 and _is(words[0], "V:ind:pres")
-    return governs and not may_ask and not (verbs[0] > 0 and _is(words[verbs[0] - 1], _CLITICS))
-
-
-def _is(word: SourceWord, tags: str | tuple[str, ...]) -> bool:
-    return word.readings[0].tag.startswith(tags)
+    governs = len(verbs) > 1 and words[verbs[0] + 1].tag.startswith("PREP")
+    may_ask = verbs[0] == 0 and words[0].tag.startswith("V:ind:pres")
+    return governs and not may_ask and not (verbs[0] > 0 and words[verbs[0] - 1].tag.startswith(_CLITICS))

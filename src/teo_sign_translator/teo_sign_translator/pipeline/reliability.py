@@ -26,7 +26,7 @@ def features(words: Sequence[SourceWord], confidences: Sequence[float]) -> tuple
         words: Of the sentence.
         confidences: Of what is signed, at least one, 0 to 1.
     """
-    tags = [word.readings[0].tag for word in words]
+    tags = [word.tag for word in words]
     return (
         min(confidences),
         sum(confidence < _SURE for confidence in confidences),

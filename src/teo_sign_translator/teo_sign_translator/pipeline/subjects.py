@@ -17,7 +17,7 @@ from dataclasses import replace
 from teo_sign_translator.morphology import Reading
 from teo_sign_translator.pipeline.completeness import CompleteTranslation
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
-from teo_sign_translator.pipeline.topic import Topics
+from teo_sign_translator.pipeline.topic import Topics, behind_preposition
 from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.text.source_word import SourceWord
 
@@ -103,12 +103,16 @@ class Subjects:
     def _verb(self, words: Sequence[SourceWord], gloss: OutputGloss) -> int:
         """Place of the verb that a person does, if its form alone is "yo" and "él"; -1 if it says who."""
         own = next((place for place in gloss.sources if _says(words[place].readings, _AMBIGUOUS)), -1)
-        if own >= 0 or not gloss.sources or any(_is(words[place], _WHOSE) for place in gloss.sources):
+        if (
+            own >= 0
+            or not gloss.sources
+            or any(words[place].tag.startswith(_WHOSE) for place in gloss.sources)
+        ):
             return own
         for place in range(gloss.sources[0] - 1, -1, -1):  # of what a noun or an adjective is said
             if words[place].is_mark:
                 return -1
-            if _is(words[place], _FINITE):
+            if words[place].tag.startswith(_FINITE):
                 return place if _says(words[place].readings[:1], _AMBIGUOUS) else -1
         return -1
 
@@ -122,14 +126,14 @@ class Subjects:
         if not self._opens(words, verb) or _names_signer(words, verb):
             return False
         return any(
-            another.fullmatch(word.readings[0].tag) and word.readings[0].lemma not in self._of_nobody
+            another.fullmatch(word.tag) and word.readings[0].lemma not in self._of_nobody
             for place, word in enumerate(words)
             if place != verb and not self._opens(words, place)
         )
 
     def _is_beside_named(self, words: Sequence[SourceWord], verb: int) -> bool:
         """Whether it stands beside what somebody does by name: "aunque estuviera triste, Ana sonreía"."""
-        possessed = any(_is(word, _POSSESSIVE) for word in words)
+        possessed = any(word.tag.startswith(_POSSESSIVE) for word in words)
         if not self._opens(words, verb) or possessed or _names_signer(words, verb):
             return False
         mark = next((place for place in range(verb, len(words)) if words[place].is_mark), len(words))
@@ -146,7 +150,7 @@ class Subjects:
             return False
         governor = self._governor(words, verb)
         if governor >= 0:
-            return words[governor].readings[0].tag.endswith(":3s") and not _has_signers_verb(words)
+            return words[governor].tag.endswith(":3s") and not _has_signers_verb(words)
         if opening or (verb in sources and _names_signer(words, verb)):
             return False
         return self._is_said_of(words, verb)
@@ -154,21 +158,21 @@ class Subjects:
     def _is_said_of(self, words: Sequence[SourceWord], verb: int, start: int = 0) -> bool:
         """Whether who is named does what a verb, or one before it, says: "Ana fue, pero odiaba ir"."""
         for place in range(start, verb):
-            if not self._names(words[place]) or _is_object(words, place):
+            if not self._names(words[place]) or behind_preposition(words, place):
                 continue
-            behind = next((word for word in words[place + 1 :] if _is(word, _FINITE)), None)
-            if behind is not None and behind.readings[0].tag.endswith(":3s"):
+            behind = next((word for word in words[place + 1 :] if word.tag.startswith(_FINITE)), None)
+            if behind is not None and behind.tag.endswith(":3s"):
                 return True
         return False
 
     def _names(self, word: SourceWord) -> bool:
         """Whether a word names somebody, by what it is most likely."""
-        return word.readings[0].tag.startswith(("N:", "NAME")) and self._topics.may_do(word)
+        return word.tag.startswith(("N:", "NAME")) and self._topics.may_do(word)
 
     def _opens(self, words: Sequence[SourceWord], place: int) -> str:
         """The word that opens a clause in which something is done when, if or although; empty for none."""
         for word in reversed(words[:place]):
-            if word.is_mark or word.readings[0].tag.startswith(_MAIN):
+            if word.is_mark or word.tag.startswith(_MAIN):
                 return ""
             if word.form in self._who.adjuncts or word.form in self._who.concessives:
                 return word.form
@@ -178,14 +182,12 @@ class Subjects:
         """The verb whose clause another one's is, joined to it and with nothing between but adverbs; -1."""
         joiner = next((place for place in range(verb - 1, 0, -1) if words[place].form == self._who.joiner), 0)
         between = words[joiner + 1 : verb]
-        if not joiner or any(word.is_mark or word.readings[0].tag.startswith(_MAIN) for word in between):
+        if not joiner or any(word.is_mark or word.tag.startswith(_MAIN) for word in between):
             return -1
-        if any(
-            self._topics.may_do(word) and not word.readings[0].tag.startswith(_OBJECTS) for word in between
-        ):
+        if any(self._topics.may_do(word) and not word.tag.startswith(_OBJECTS) for word in between):
             return -1
         main = joiner - 2 if words[joiner - 1].form == self._who.link else joiner - 1
-        return main if main >= 0 and words[main].readings[0].tag.startswith((*_MAIN, "V:part")) else -1
+        return main if main >= 0 and words[main].tag.startswith((*_MAIN, "V:part")) else -1
 
     def _is_doubted(self, words: Sequence[SourceWord], verb: int) -> bool:
         """Whether the signer doubts what he is able to do himself: "no creo que pueda ir"."""
@@ -212,11 +214,15 @@ def _with_nobody_first(
     """The same with nobody, as a subject, before the object: YO EXPLICAR NADIE says another thing."""
     alone = [gloss.sources[0] if len(gloss.sources) == 1 else -1 for gloss in said.glosses]
     pointing = [gloss.sources if gloss.gloss in persons else () for gloss in said.glosses]
-    objects = [at for at, own in enumerate(pointing) if any(_is(words[place], "PRON:obj") for place in own)]
+    objects = [
+        at for at, own in enumerate(pointing) if any(words[place].tag.startswith("PRON:obj") for place in own)
+    ]
     nobody = (
         at
         for at, place in enumerate(alone)
-        if 0 <= place < len(words) - 1 and _is(words[place], "PRON:neg") and _is(words[place + 1], "PRON:obj")
+        if 0 <= place < len(words) - 1
+        and words[place].tag.startswith("PRON:neg")
+        and words[place + 1].tag.startswith("PRON:obj")
     )
     at = next(nobody, -1)
     if not objects or objects[0] >= at:
@@ -224,10 +230,6 @@ def _with_nobody_first(
     order = list(range(len(alone)))
     order.insert(objects[0], order.pop(at))
     return said.in_order(order)
-
-
-def _is(word: SourceWord, tag: str | tuple[str, ...]) -> bool:
-    return word.readings[0].tag.startswith(tag)
 
 
 def _says(readings: Sequence[Reading], pattern: re.Pattern[str]) -> bool:
@@ -247,19 +249,11 @@ def _commands(words: Sequence[SourceWord], verb: int) -> bool:
     """Whether a verb asks somebody who is called "usted" to do something: "respire", "no se mueva"."""
     if not _says(words[verb].readings[:1], _COMMAND):
         return False
-    before = next((word for word in reversed(words[:verb]) if not _is(word, _BEFORE_COMMANDS)), None)
+    before = next(
+        (word for word in reversed(words[:verb]) if not word.tag.startswith(_BEFORE_COMMANDS)), None
+    )
     return before is None or before.is_mark
 
 
 def _has_signers_verb(words: Sequence[SourceWord]) -> bool:
-    return any(
-        word.readings[0].tag.startswith(_MAIN) and word.readings[0].tag.endswith(":1s") for word in words
-    )
-
-
-def _is_object(words: Sequence[SourceWord], place: int) -> bool:
-    """Whether a preposition stands before a noun."""
-    for word in reversed(words[:place]):
-        if not word.readings[0].tag.startswith(("DET", "A:", "NUM")):
-            return word.readings[0].tag.startswith("PREP")
-    return False
+    return any(word.tag.startswith(_MAIN) and word.tag.endswith(":1s") for word in words)

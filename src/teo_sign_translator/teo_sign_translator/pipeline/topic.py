@@ -53,8 +53,7 @@ class Topics:
         reading = words[place].readings[0]
         if not reading.tag.startswith(("N:", "NAME")) or reading.lemma in self._times:
             return False
-        tags = (word.readings[0].tag for word in reversed(words[:place]))
-        return not next((tag for tag in tags if not tag.startswith(_BEFORE_NOUNS)), "").startswith("PREP")
+        return not behind_preposition(words, place)
 
     def repeated(self, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> list[int]:
         """The places of subjects that a clause before in the same sentence has said already.
@@ -98,9 +97,15 @@ class Topics:
         return gloss.gloss in map(gloss_name, lemmas)
 
 
+def behind_preposition(words: Sequence[SourceWord], place: int) -> bool:
+    """Whether a preposition stands before a noun and what belongs to it."""
+    before = (word.tag for word in reversed(words[:place]) if not word.tag.startswith(_BEFORE_NOUNS))
+    return next(before, "").startswith("PREP")
+
+
 def _in_relative_clause(words: Sequence[SourceWord], verb: int) -> bool:
     """Whether what opens a verb's clause may be a relative; "creo que" is taken for one too."""
-    opening = [word for word in words[:verb] if not word.readings[0].tag.startswith(_BEFORE_VERBS)]
+    opening = [word for word in words[:verb] if not word.tag.startswith(_BEFORE_VERBS)]
     return bool(opening) and any(reading.tag == "PRON:rel" for reading in opening[-1].readings)
 
 

@@ -48,7 +48,7 @@ class Wishes:
             said: A translation of it.
         """
         for verb, word in enumerate(words):
-            person = _WISHED.fullmatch(word.readings[0].tag)
+            person = _WISHED.fullmatch(word.tag)
             joiner = self._joiner(words, verb) if person else 0
             if person and joiner:
                 said = self._with_others(words, said, verb, joiner, person[1])
@@ -56,7 +56,7 @@ class Wishes:
 
     def _joiner(self, words: Sequence[SourceWord], verb: int) -> int:
         """Place of what joins a wish of the signer's to its verb, if nobody is named in either; else 0."""
-        before = (at for at in range(verb - 1, 0, -1) if not words[at].readings[0].tag.startswith(_BETWEEN))
+        before = (at for at in range(verb - 1, 0, -1) if not words[at].tag.startswith(_BETWEEN))
         joiner = next(before, 0)
         if words[joiner].form != self._who.joiner or words[verb].readings[0].lemma in self._done_by_nobody:
             return 0
@@ -74,7 +74,7 @@ class Wishes:
         return joiner if is_signers and not is_own and not named else 0
 
     def _names_somebody(self, word: SourceWord) -> bool:
-        tag = word.readings[0].tag
+        tag = word.tag
         return (
             tag.startswith(_PERSONS)
             and not tag.startswith((*_CLITICS, "PRON:rel"))
@@ -91,7 +91,7 @@ class Wishes:
         while place > 0 and behind[place - 1]:
             place -= 1
         who = read_gloss(self._who.pointing[person], verb)
-        clitic = words[verb - 1].readings[0].tag.removeprefix(_CLITICS[0])
+        clitic = words[verb - 1].tag.removeprefix(_CLITICS[0])
         to_whom = self._who.pointing[clitic] if clitic in self._who.clitics.values() else ""
         own = [gloss for at, gloss in enumerate(said.glosses) if behind[at] and gloss.gloss in self._names]
         if place < 0 or any(gloss.gloss != to_whom or verb in gloss.sources for gloss in own):

@@ -31,7 +31,7 @@ def told_by_neighbours(words: list[SourceWord], morphology: Morphology) -> list[
         written = told.perfect.get(word.form)
         if written and not _is_participle(following, behind=words[place - 1] if place else None):
             written = None
-        if following.readings[0].tag.startswith("V:inf"):
+        if following.tag.startswith("V:inf"):
             written = told.infinitive.get(word.form, written)
         if written:
             word = words[place] = replace(word, form=written, readings=morphology.readings(written))
@@ -57,7 +57,7 @@ def told_by_neighbours(words: list[SourceWord], morphology: Morphology) -> list[
         elif behind_copula or before in told.before_nouns or (before in told.before_masculine and masculine):
             readings = _without_verbs(word.readings, prepositions=behind_copula)
             words[place] = replace(word, readings=readings if behind_copula else _no_participles(readings))
-        elif place and words[place - 1].readings[0].tag.startswith(_OBJECTS):
+        elif place and words[place - 1].tag.startswith(_OBJECTS):
             words[place] = replace(word, readings=_no_orders(word.readings))
         before = word.form
         behind_copula = word.readings[0].lemma in told.copulas or (
@@ -81,9 +81,9 @@ def _behind(words: Sequence[SourceWord], place: int, morphology: Morphology) -> 
         return word.readings
     if any(each.exact for each in verbs) and all(each.tag in _SUBJECTS for each in before.readings):
         return tuple(each for each in word.readings if not each.tag.startswith("N:"))
-    doubled = place > 1 and words[place - 2].readings[0].tag.startswith(_OBJECTS)  # me lo
+    doubled = place > 1 and words[place - 2].tag.startswith(_OBJECTS)  # me lo
     if all(each.tag.startswith(_OBJECTS) for each in before.readings) or (
-        doubled and before.readings[0].tag.startswith(_OBJECTS)
+        doubled and before.tag.startswith(_OBJECTS)
     ):
         return verbs if any(each.exact for each in verbs) else word.readings
     tags = [each.tag for each in before.readings if each.exact]
@@ -95,7 +95,7 @@ def _behind(words: Sequence[SourceWord], place: int, morphology: Morphology) -> 
     if article is None:
         return word.readings
     agreeing = tuple(each for each in others if _agrees(each, *article.groups()))
-    denied = place > 1 and words[place - 2].readings[0].tag == "ADV:neg"
+    denied = place > 1 and words[place - 2].tag == "ADV:neg"
     unlikely = not denied and all(each.tag.startswith("V:sub") for each in verbs if each.exact)
     if agreeing and (unlikely or (place > 1 and _governs(words[place - 2]))):
         return agreeing
@@ -125,7 +125,7 @@ def _coming(words: Sequence[SourceWord], motion: Collection[str]) -> SourceWord:
     verbs = tuple(
         each for each in words[0].readings if each.lemma in motion and _PERSONAL.fullmatch(each.tag)
     )
-    purpose = words[1].readings[0].tag == "PREP" and words[2].readings[0].tag == "V:inf"
+    purpose = words[1].tag == "PREP" and words[2].tag == "V:inf"
     return replace(words[0], readings=verbs) if verbs and purpose else words[0]
 
 
@@ -134,7 +134,7 @@ def _counting(words: Sequence[SourceWord], morphology: Morphology) -> SourceWord
     numbers = TextRules.load(morphology.folder).numbers
     number = tuple(reading for reading in words[0].readings if reading.tag == "NUM")
     half = any(reading.lemma in numbers.fractions[:1] for reading in words[3].readings)
-    counts = number and words[1].readings[0].tag.startswith("N:") and words[2].form == numbers.joiner
+    counts = number and words[1].tag.startswith("N:") and words[2].form == numbers.joiner
     return replace(words[0], readings=number) if counts and half else words[0]
 
 

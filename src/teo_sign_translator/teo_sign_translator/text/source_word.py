@@ -31,6 +31,11 @@ class SourceWord:
     readings: tuple[Reading, ...]
 
     @property
+    def tag(self) -> str:
+        """Of its likeliest reading."""
+        return self.readings[0].tag
+
+    @property
     def is_mark(self) -> bool:
         """Whether it is punctuation."""
-        return self.readings[0].tag == "MARK"
+        return self.tag == "MARK"

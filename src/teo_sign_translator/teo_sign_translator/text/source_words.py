@@ -148,8 +148,8 @@ def _as_prices_are_said(words: Sequence[SourceWord]) -> list[SourceWord]:
     for word in words:
         result.append(word)
         before, symbol = ([None, None, *result])[-3:-1]
-        alone = before is None or before.readings[0].tag != "NUM"
-        if symbol is not None and _is_currency(symbol) and alone and word.readings[0].tag == "NUM":
+        alone = before is None or before.tag != "NUM"
+        if symbol is not None and _is_currency(symbol) and alone and word.tag == "NUM":
             result[-2:] = [word, symbol]
     return result
 
@@ -189,7 +189,7 @@ def _in_their_clause(words: Sequence[SourceWord], morphology: Morphology) -> lis
         out = set()
         if "WH" in tags and not _may_relate(words, place):
             out.add("PRON:rel")
-        asks = not place or words[place - 1].readings[0].tag == "WH"
+        asks = not place or words[place - 1].tag == "WH"
         inside = (*_INSIDE_PERFECT, "DET:indef") if asks else _INSIDE_PERFECT  # not "she has a broken arm"
         if "AUX" in tags and not _before_participle(words[place + 1 :], inside, morphology):
             out.add("AUX")
@@ -204,7 +204,7 @@ def _may_relate(words: Sequence[SourceWord], place: int) -> bool:
     before = place - 1
     if before > 0 and words[before].form == "," and any(word.form == "," for word in words[place:]):
         before -= 1
-    return before >= 0 and words[before].readings[0].tag.startswith(_BEFORE_RELATIVES)
+    return before >= 0 and words[before].tag.startswith(_BEFORE_RELATIVES)
 
 
 def _before_participle(words: Sequence[SourceWord], inside: tuple[str, ...], morphology: Morphology) -> bool:
@@ -213,7 +213,7 @@ def _before_participle(words: Sequence[SourceWord], inside: tuple[str, ...], mor
         verbs = (reading.lemma for reading in word.readings if reading.tag.startswith("V:") and reading.exact)
         if any(morphology.is_form(word.form, lemma, "V:part") for lemma in verbs):
             return True
-        if not word.readings[0].tag.startswith(inside):
+        if not word.tag.startswith(inside):
             return False
     return False
 
@@ -246,7 +246,7 @@ def _phrase(words: Sequence[SourceWord], morphology: Morphology) -> bool:
 
 
 def _said_as(word: SourceWord) -> str:
-    return word.text.lower() if word.readings[0].tag == "NUM" else word.form
+    return word.text.lower() if word.tag == "NUM" else word.form
 
 
 def _as_one(words: Sequence[SourceWord], morphology: Morphology) -> SourceWord:
@@ -265,7 +265,7 @@ def _divided(words: Sequence[SourceWord], following: Sequence[SourceWord], morph
         _phrase((verb, particle), morphology)
         and any(reading.tag.startswith("V:") for reading in _as_one((verb, particle), morphology).readings)
         and all(any(r.tag.startswith(_OBJECTS) for r in word.readings) for word in between)
-        and not any(word.readings[0].tag.startswith(_NOMINAL) for word in following)
+        and not any(word.tag.startswith(_NOMINAL) for word in following)
     )
 
 
@@ -290,12 +290,12 @@ def _may_be_surname(word: SourceWord) -> bool:
     """Whether a capital makes a word a name: not a place's, and not that of a word that always has one."""
     others = [reading for reading in word.readings if not is_persons_name(reading)]
     own_capital = any(reading.lemma[:1].isupper() for reading in others)
-    return not (own_capital or word.readings[0].tag.startswith("PRON"))
+    return not (own_capital or word.tag.startswith("PRON"))
 
 
 def _all_readings(word: SourceWord, morphology: Morphology) -> tuple[Reading, ...]:
     """The readings of a word, that of a given name among them though it is a common word too."""
-    if word.readings[0].tag in ("NUM", "X") or " " in word.form:
+    if word.tag in ("NUM", "X") or " " in word.form:
         return word.readings
     return morphology.readings(word.form)
 

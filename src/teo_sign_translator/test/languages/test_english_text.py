@@ -114,7 +114,7 @@ def test_kind_and_negation_come_from_marks_and_words(text: str, kind: SentenceTy
 )
 def test_a_word_in_its_sentence_is_read(sentence: str, word: str, lemma: str, tag: str) -> None:
     (read_word,) = (each for each in source_words(sentence, MORPHOLOGY) if each.text == word)
-    assert (read_word.readings[0].lemma, read_word.readings[0].tag) == (lemma, tag)
+    assert (read_word.readings[0].lemma, read_word.tag) == (lemma, tag)
 
 
 @pytest.mark.parametrize(

@@ -21,7 +21,7 @@ def said(sentence: str, *, model: bool) -> str:
     glosses = [
         OutputGloss((model and PLACES.get(word.form)) or word.form.upper(), (place,), 0.9, copied=False)
         for place, word in enumerate(words)
-        if word.readings[0].tag.startswith("N:") or (model and word.form in PLACES)
+        if word.tag.startswith("N:") or (model and word.form in PLACES)
     ]
     translation = CompleteTranslation(tuple(glosses), (False,) * len(glosses))
     return " ".join(gloss.gloss for gloss in CONNECTIVES.read(words, translation).glosses)

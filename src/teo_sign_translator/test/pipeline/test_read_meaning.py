@@ -15,6 +15,7 @@ from loaded import translator
         ("No es caro, sino barato.", "CARO NO BARATO"),
         ("No quiero café sino té.", "YO CAFÉ NO TÉ QUERER"),
         ("Mi madre no sabe que fumo.", "MADRE MI SABER NO YO FUMAR"),
+        ("voy a llamarte", "YO TÚ LLAMAR"),
         ("no se que hacer", "YO HACER QUÉ SABER NO"),
         ("Trabajo de ocho a tres.", "HORA 8 HASTA 3 YO TRABAJAR"),
         ("Mi coche es más viejo que el tuyo.", "COCHE MI COCHE TU VIEJO MÁS"),

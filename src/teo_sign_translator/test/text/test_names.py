@@ -97,10 +97,10 @@ def test_a_common_word_that_nothing_makes_a_name_is_none(sentence: str, word: st
 
 
 def test_a_name_beside_a_name_is_one_at_the_beginning_too() -> None:
-    assert read("Rosa y Pablo se casan.")[0].readings[0].tag == "NAME:f"
-    assert read("Rosa y azul, por favor.")[0].readings[0].tag != "NAME:f"
+    assert read("Rosa y Pablo se casan.")[0].tag == "NAME:f"
+    assert read("Rosa y azul, por favor.")[0].tag != "NAME:f"
 
 
 def test_whom_something_is_done_to_is_no_part_of_the_name_before() -> None:
     words = read("Pago la ropa de Samuel a María.")
-    assert [word.readings[0].tag for word in words if word.form == "a"] == ["PREP"]
+    assert [word.tag for word in words if word.form == "a"] == ["PREP"]

@@ -114,6 +114,8 @@ def test_any_text_can_be_read(text: str) -> None:
         ("el señor Veloz y la cesión", "el|señor|veloz|y|la|cesión"),
         ("no me as contestado", "no|me|has|contestado"),
         ("mi madre a comprado pan", "mi|madre|ha|comprado|pan"),
+        ("te e comprado pan", "te|he|comprado|pan"),
+        ("padres e hijos", "padres|e|hijos"),
         ("voy a casa de lado a lado", "voy|a|casa|de|lado|a|lado"),
         ("es un as de oros", "es|un|as|de|oros"),
     ],
@@ -145,6 +147,8 @@ def test_no_word_of_the_lexicon_is_taken_for_another_that_sounds_so() -> None:
         ("llama sin falta", "falta", "V:"),
         ("las riego mañana", "riego", "N:"),
         ("te la mando luego", "mando", "N:"),
+        ("si me lo cuentas", "cuentas", "N:"),
+        ("solo vino a comer", "vino", "N:"),
         ("perdí la cosa", "cosa", "V:"),
         ("los fines de mes", "fines", "V:"),
         ("quiero que me firmes esto", "firmes", "A:"),
@@ -167,6 +171,8 @@ def test_a_neighbour_rules_out_what_a_word_cannot_be(sentence: str, word: str, i
     ("sentence", "word", "possible"),
     [
         ("el libro sobre la mesa", "sobre", "PREP"),
+        ("un vino a granel", "vino", "N:"),
+        ("lo cuentas tú", "cuentas", "V:"),
         ("grito mucho", "grito", "V:"),
         ("el que llama", "llama", "V:"),
         ("el llama a su madre", "llama", "V:"),  # él
