@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The sentences that the translator is measured on are in nothing that it was made from."""
+"""The sentences that the translator is measured on: in nothing that it was made from, and no word lost."""
 
 from __future__ import annotations
 
 import ast
 import re
 from collections import defaultdict
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -19,7 +19,16 @@ import yaml
 from glosses.accepted_translations import accepted, accepts
 from teo_common.text_folding import folded
 from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.morphology import Morphology
+from teo_sign_translator.pipeline.completeness import Completeness
+from teo_sign_translator.pipeline.pointer_back_end import PointerBackEnd
 from teo_sign_translator.pipeline.translator import Translator
+from teo_sign_translator.pointer import OutputGloss, load_sentence_model
+from teo_sign_translator.pointer.config import POINTER
+from teo_sign_translator.text.cleaning import clean
+from teo_sign_translator.text.reading import read
+from teo_sign_translator.text.rules import TextRules
+from teo_sign_translator.text.source_word import SourceWord
 
 ROOT = Path(__file__).parents[1]
 SENTENCES = Path("test") / "data"
@@ -175,3 +184,31 @@ def test_as_many_are_right_as_are_said_to_be_likely(name: str, language: str) ->
     for part in np.array_split(np.array(by_likelihood), 5):
         likely, right = part.mean(axis=0)
         assert abs(likely - right) < 0.1
+
+
+class GlossesOfWords:
+    """Stands where signs get their forms, and keeps the glosses of each sentence's words."""
+
+    def __init__(self) -> None:
+        self.said: dict[tuple[SourceWord, ...], list[OutputGloss]] = {}
+
+    def inflection(self, gloss: str, sources: Sequence[int], words: Sequence[SourceWord]) -> str:
+        self.said.setdefault(tuple(words), []).append(OutputGloss(gloss, tuple(sources), 1.0, copied=False))
+        return ""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["known", "blind", "paragraphs"])
+def test_each_content_word_of_every_evaluation_sentence_has_a_gloss_that_says_it(name: str) -> None:
+    text = ROOT / LANGUAGE
+    glosses, completeness, rules = GlossesOfWords(), Completeness.load(text), TextRules.load(text)
+    model = load_sentence_model(POINTER, text.parent / "models")
+    back_end = PointerBackEnd(model, Morphology.load(text), completeness, {}, glosses)  # type: ignore[arg-type]
+    back_end.translate([read(clean(line).text, rules).clauses for line in lines(ROOT, f"{name}.txt")])
+    assert len(glosses.said) > 100
+    lost = {
+        " ".join(word.form for word in words): [words[place].form for place in left]
+        for words, said in glosses.said.items()
+        if (left := completeness.left_out(words, said))
+    }
+    assert lost == {}

@@ -26,7 +26,7 @@ class Denials:
             words: Of the sentence.
             said: A translation of it.
         """
-        return self._with_opposite(self._with_one_denial(words, said))
+        return self._with_opposite(words, self._with_one_denial(words, said))
 
     def _with_one_denial(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """The same without "not" beside "never" or "nobody", which denies alone: "no friega nunca"."""
@@ -40,13 +40,15 @@ class Denials:
         glosses[again[0]] = replace(negative, sources=tuple(sorted({*negative.sources, *no})))
         return replace(said, glosses=tuple(glosses)).without(denied)
 
-    def _with_opposite(self, said: CompleteTranslation) -> CompleteTranslation:
+    def _with_opposite(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """The same with "not" behind what is denied alone: "no quiero café, sino té" is CAFÉ NO TÉ QUERER."""
-        denied = [at for at, gloss in enumerate(said.glosses) if gloss.gloss == self._said.negation]
-        rather = [at for at, gloss in enumerate(said.glosses) if gloss.gloss == self._said.rather]
-        if not denied or not rather:
+        rather = next((place for place, word in enumerate(words) if word.form == self._said.rather), -1)
+        kept = said.without([at for at, gloss in enumerate(said.glosses) if gloss.gloss == self._said.but])
+        denied = [at for at, gloss in enumerate(kept.glosses) if gloss.gloss == self._said.negation]
+        behind = (at for at, gloss in enumerate(kept.glosses) if max(gloss.sources, default=-1) > rather)
+        opposite = next(behind, -1)
+        if rather < 0 or not denied or opposite < 0:
             return said
-        sources = {*said.glosses[denied[-1]].sources, *said.glosses[rather[0]].sources}
-        negation = replace(said.glosses[denied[-1]], sources=tuple(sorted(sources)))
-        place = min(denied[-1], rather[0])
-        return said.without([rather[0], denied[-1]]).with_glosses(place, negation)
+        sources = {*kept.glosses[denied[-1]].sources, rather}
+        negation = replace(kept.glosses[denied[-1]], sources=tuple(sorted(sources)))
+        return kept.without(denied[-1:]).with_glosses(min(denied[-1], opposite), negation)

@@ -148,13 +148,15 @@ class DenialWords:
         denying: Word that denies.
         negation: Its gloss.
         negatives: Glosses that deny and say more.
-        rather: Gloss of "but" behind what is denied.
+        rather: Word of "but" behind what is denied.
+        but: Its gloss.
     """
 
     denying: str
     negation: str
     negatives: frozenset[str]
     rather: str
+    but: str
 
 
 @dataclass(frozen=True)
