@@ -17,7 +17,7 @@ from teo_sign_translator.data_files import invalid_line, read_rows
 from teo_sign_translator.morphology import Reading
 from teo_sign_translator.morphology.lexicon import nouns
 from teo_sign_translator.pipeline.pipeline_words import PersonWords, PipelineWords
-from teo_sign_translator.text.source_word import SourceWord
+from teo_sign_translator.text.source_word import CLITICS, SourceWord, between_marks
 
 _DATIVE, _PERSON, _BODY = "dative", "person", "body"
 _NONE = "-"
@@ -77,7 +77,7 @@ class Agreement:
         for place in sources:
             verbs = [reading for reading in words[place].readings if reading.lemma == rule.lemma]
             if verbs:
-                start, stop = _clause(words, place)
+                start, stop = between_marks(words, place)
                 ends = next((word.form for word in words[place:] if word.form in _ENDS), "")
                 orders = place == start and ends != "?" and not _says_verb(words[:start])
                 clause = _Clause(
@@ -91,13 +91,6 @@ class Agreement:
                 )
                 return clause.place(rule.places) if rule.kind == _BODY else clause.persons(rule.kind)
         return ""
-
-
-def _clause(words: Sequence[SourceWord], place: int) -> tuple[int, int]:
-    """Where the words between two marks begin and end."""
-    start = max((index + 1 for index in range(place) if words[index].is_mark), default=0)
-    stop = next((index for index in range(place, len(words)) if words[index].is_mark), len(words))
-    return start, stop
 
 
 def _names_person(reading: Reading, people: frozenset[str]) -> bool:
@@ -172,7 +165,7 @@ class _Clause:
         before: list[str] = []
         for place in range(finite - 1, -1, -1):
             word = self.words[place]
-            if not any(reading.tag.startswith(("PRON:obj", "PRON:refl")) for reading in word.readings):
+            if not any(reading.tag.startswith(CLITICS) for reading in word.readings):
                 break
             before.insert(0, word.form)
         return before, bool(before)

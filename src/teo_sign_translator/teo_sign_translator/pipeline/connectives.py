@@ -4,8 +4,9 @@
 
 "Por" gives a reason ("no fui por la lluvia"), a way ("pasé por tu casa") or who did it ("escrito por mi
 madre"); "sobre" says what is spoken of ("un libro sobre la guerra") or on what something lies ("un libro
-sobre la mesa"). LSE signs the reason and the place above, and nothing for the others. "Que" behind
-"prefiero" asks nothing.
+sobre la mesa"). LSE signs the reason and the place above, and nothing for the others. "Que" without its
+accent joins or compares, and asks nothing; "por poco" is almost; a person behind a preposition may only tell
+who is meant ("el chico que vive conmigo").
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from teo_sign_translator.morphology.lexicon import nouns
 from teo_sign_translator.pipeline.completeness import CompleteTranslation, read_gloss
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pointer import OutputGloss
-from teo_sign_translator.text.source_word import SourceWord
+from teo_sign_translator.text.source_word import CLITICS, SourceWord
 
 #: Classes of nouns through which, by which or at which something is done.
 _WAYS = frozenset({"place", "building", "room", "furniture", "body", "time"})
@@ -32,8 +33,10 @@ _AGENTS = frozenset({"person", "family", "profession", "animal", "group"})
 _SURFACES = frozenset({"furniture", "room"})
 #: What may stand between a preposition and its noun, and between what is spoken of and the preposition.
 _BETWEEN = ("DET", "A:", "NUM", "ADV", "PRON:obj")
+#: Persons behind a preposition, or in one word with it.
+_COMPANIONS = ("PRON:with", "PRON:prep")
 #: What begins something that is done.
-_DONE = ("V:ind", "PRON:obj", "PRON:refl", "ADV:neg")
+_DONE = ("V:ind", "ADV:neg", *CLITICS)
 
 
 class Connectives:
@@ -45,7 +48,8 @@ class Connectives:
         Raises:
             TranslationError: "invalid_data" naming file and field.
         """
-        self._said = PipelineWords.load(folder).connectives
+        language = PipelineWords.load(folder)
+        self._said, self._preferring = language.connectives, language.comparisons.preferring
         self._classes = {noun.lemma: frozenset(noun.classes) for noun in nouns(folder)}
 
     def read(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
@@ -68,13 +72,13 @@ class Connectives:
         """The same with "with" or "for" where somebody only tells who is meant: "el que vive conmigo"."""
         for at, gloss in enumerate(said.glosses):
             place = gloss.sources[0] if len(gloss.sources) == 1 else 0
-            is_with = words[place].tag.startswith("PRON:with")
-            name = self._said.together if is_with else self._said.companions.get(words[place - 1].form, "")
-            if not name or not words[place].tag.startswith(("PRON:with", "PRON:prep")):
+            if not words[place].tag.startswith(_COMPANIONS):
                 continue
+            forms = [word.form for word in words[max(0, place - 1) : place + 1]]
+            name = next((self._said.companions[form] for form in forms if form in self._said.companions), "")
             before = next((back for back in range(place, 0, -1) if words[back].form == self._said.that), 0)
             is_relative = before > 0 and words[before - 1].tag.startswith("N:")
-            if is_relative and (at == 0 or said.glosses[at - 1].gloss != name):
+            if name and is_relative and (at == 0 or said.glosses[at - 1].gloss != name):
                 return said.with_glosses(at, read_gloss(name, place))
         return said
 
@@ -122,7 +126,7 @@ class Connectives:
 
     def _compares(self, words: Sequence[SourceWord], place: int) -> bool:
         """Whether a word asks nothing, but names what is liked less: "prefiero leer que salir"."""
-        preferred = any(word.readings[0].lemma in self._said.preferring for word in words[:place])
+        preferred = any(word.readings[0].lemma in self._preferring for word in words[:place])
         return preferred and words[place].form == self._said.that and words[-1].form != "?"
 
     def _is_about(self, words: Sequence[SourceWord], place: int) -> bool:

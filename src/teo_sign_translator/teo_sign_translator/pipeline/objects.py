@@ -16,10 +16,8 @@ from typing import NamedTuple
 from teo_sign_translator.pipeline.completeness import CompleteTranslation, read_gloss
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pipeline.topic import Topics
-from teo_sign_translator.text.source_word import SourceWord
+from teo_sign_translator.text.source_word import CLITICS, OBJECT, SourceWord
 
-_OBJECT = "PRON:obj:"
-_CLITICS = (_OBJECT, "PRON:refl")
 #: Of a verb that says by its form alone that it is neither the signer nor the addressee who does it.
 _SAYS_WHO = re.compile(r"V:ind:(?!impf).*:3s")
 _OTHERS = re.compile(r"V:ind:.*:3p")
@@ -81,10 +79,11 @@ class Objects:
         for verb in range(2, len(words)):
             relative = words[verb - 1].form == self._who.joiner and words[verb - 1].tag == "PRON:rel"
             to_whom = any(word.form in self._towards for word in words[max(0, verb - 3) : verb - 1])
+            if not relative or not to_whom or not _OTHERS.fullmatch(words[verb].tag):
+                continue
             named = any(self._topics.may_act(words, at) for at in range(verb + 1, _end(words, verb)))
             own = [at for at, gloss in enumerate(said.glosses) if verb in gloss.sources]
-            pointed = any(said.glosses[at].gloss in self._names for at in own)
-            if relative and to_whom and _OTHERS.fullmatch(words[verb].tag) and own and not (named or pointed):
+            if own and not named and not any(said.glosses[at].gloss in self._names for at in own):
                 return said.with_glosses(own[0], read_gloss(self._pointing["3p"], verb))
         return said
 
@@ -118,7 +117,7 @@ class Objects:
             if at_end:
                 to_whom, verbs = at_end, _up_to(words, place)
             else:
-                to_whom, verbs = reading.tag.removeprefix(_OBJECT), _behind(words, place)
+                to_whom, verbs = reading.tag.removeprefix(OBJECT), _behind(words, place)
             if not verbs or to_whom not in self._who.clitics.values():
                 continue
             who = words[verbs[0]].tag.rsplit(":", 1)[-1]
@@ -184,7 +183,7 @@ class Objects:
     def _may_be(self, words: Sequence[SourceWord], place: int, deed: _Deed) -> bool:
         """Whether a word may name who does it; behind the verb only somebody does, no thing."""
         word = words[place]
-        if word.tag.startswith(_CLITICS):
+        if word.tag.startswith(CLITICS):
             return False
         names = self._topics.may_act(words, place) and (place < deed.clitic or self._topics.may_do(word))
         return names or word.tag.startswith(("PRON:", "WH"))
@@ -197,9 +196,9 @@ def _end(words: Sequence[SourceWord], place: int, tags: tuple[str, ...] = _OPENI
 
 def _behind(words: Sequence[SourceWord], clitic: int) -> tuple[int, ...]:
     """Places of the verb behind a pronoun and of those that it governs: "me van a operar"; or none."""
-    following = (at for at in range(clitic + 1, len(words)) if not words[at].tag.startswith(_CLITICS))
+    following = (at for at in range(clitic + 1, len(words)) if not words[at].tag.startswith(CLITICS))
     finite = next(following, -1)
-    if not words[clitic].tag.startswith(_OBJECT) or finite < 0 or not words[finite].tag.startswith(_FINITE):
+    if not words[clitic].tag.startswith(OBJECT) or finite < 0 or not words[finite].tag.startswith(_FINITE):
         return ()
     places = [finite]
     for place in range(finite + 1, len(words)):
@@ -229,4 +228,4 @@ def _acts(words: Sequence[SourceWord], verbs: tuple[int, ...]) -> bool:
     """Whether one who is not named goes on or begins to do it: "volvió a llamarme", no "ven a verme"."""
     governs = len(verbs) > 1 and words[verbs[0] + 1].tag.startswith("PREP")
     may_ask = verbs[0] == 0 and words[0].tag.startswith("V:ind:pres")
-    return governs and not may_ask and not (verbs[0] > 0 and words[verbs[0] - 1].tag.startswith(_CLITICS))
+    return governs and not may_ask and not (verbs[0] > 0 and words[verbs[0] - 1].tag.startswith(CLITICS))

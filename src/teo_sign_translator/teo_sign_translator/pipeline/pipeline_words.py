@@ -104,9 +104,7 @@ class ConnectiveWords:
         about: Verbs and nouns that are about something.
         that: Word that joins, compares and asks.
         what: Gloss that asks.
-        preferring: Verbs behind which it compares.
-        together: Gloss of "with".
-        companions: Glosses of prepositions before a person.
+        companions: Glosses of prepositions before a person, and of those that are one word with it.
         little: Word that means "almost" between the preposition of reasons and a verb.
         almost: Gloss of that.
     """
@@ -118,8 +116,6 @@ class ConnectiveWords:
     about: frozenset[str]
     that: str
     what: str
-    preferring: frozenset[str]
-    together: str
     companions: dict[str, str]
     little: str
     almost: str

@@ -19,7 +19,7 @@ from teo_sign_translator.pipeline.completeness import CompleteTranslation
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pipeline.topic import Topics, behind_preposition
 from teo_sign_translator.pointer import OutputGloss
-from teo_sign_translator.text.source_word import SourceWord
+from teo_sign_translator.text.source_word import CLITICS, OBJECT, SourceWord, between_marks
 
 _FINITE = ("V:ind", "V:cond", "V:sub")
 #: Of words that say themselves who does it.
@@ -27,14 +27,13 @@ _WHOSE = (*_FINITE, "V:imp", "PRON")
 #: Before a person of the signer's, who may be meant by what stands beside it.
 _POSSESSIVE = "DET:poss:1"
 _MAIN = ("V:ind", "V:cond")
-_OBJECTS = ("PRON:obj", "PRON:refl")
 _SUBJUNCTIVE = re.compile(r"V:sub:.*:3s")
 _AMBIGUOUS = re.compile(r"V:(sub|cond|ind:impf)\b.*:3s")
 _SIGNERS = re.compile(r"(V|PRON)\b.*:1s")
 _THIRD = re.compile(r"V:ind:(?!impf).*:3s")
 _ASKING = re.compile(r"V:imp:2.*")
 #: What may stand between a mark and a verb that asks for something.
-_BEFORE_COMMANDS = ("ADV:neg", "PRON:obj", "PRON:refl")
+_BEFORE_COMMANDS = ("ADV:neg", *CLITICS)
 _COMMAND = re.compile(r"V:(sub:pres|imp):.*3s")
 
 
@@ -136,7 +135,7 @@ class Subjects:
         possessed = any(word.tag.startswith(_POSSESSIVE) for word in words)
         if not self._opens(words, verb) or possessed or _names_signer(words, verb):
             return False
-        mark = next((place for place in range(verb, len(words)) if words[place].is_mark), len(words))
+        _, mark = between_marks(words, verb)
         done = (at for at in range(mark, len(words)) if _says(words[at].readings[:1], _AMBIGUOUS))
         return any(self._is_said_of(words, at, mark) for at in done)
 
@@ -184,7 +183,7 @@ class Subjects:
         between = words[joiner + 1 : verb]
         if not joiner or any(word.is_mark or word.tag.startswith(_MAIN) for word in between):
             return -1
-        if any(self._topics.may_do(word) and not word.tag.startswith(_OBJECTS) for word in between):
+        if any(self._topics.may_do(word) and not word.tag.startswith(CLITICS) for word in between):
             return -1
         main = joiner - 2 if words[joiner - 1].form == self._who.link else joiner - 1
         return main if main >= 0 and words[main].tag.startswith((*_MAIN, "V:part")) else -1
@@ -192,9 +191,9 @@ class Subjects:
     def _is_doubted(self, words: Sequence[SourceWord], verb: int) -> bool:
         """Whether the signer doubts what he is able to do himself: "no creo que pueda ir"."""
         main = self._governor(words, verb)
-        reading = words[main].readings[0]
-        doubts = main >= 0 and reading.lemma in self._who.believing and reading.tag.endswith(":1s")
-        return doubts and words[verb].readings[0].lemma == self._who.able
+        if main < 0 or words[verb].readings[0].lemma != self._who.able:
+            return False
+        return words[main].readings[0].lemma in self._who.believing and words[main].tag.endswith(":1s")
 
     def _is_wished(self, words: Sequence[SourceWord], verb: int) -> bool:
         """Whether a subjunctive stands alone behind a joiner, and a verb of the signer's governs it."""
@@ -215,14 +214,14 @@ def _with_nobody_first(
     alone = [gloss.sources[0] if len(gloss.sources) == 1 else -1 for gloss in said.glosses]
     pointing = [gloss.sources if gloss.gloss in persons else () for gloss in said.glosses]
     objects = [
-        at for at, own in enumerate(pointing) if any(words[place].tag.startswith("PRON:obj") for place in own)
+        at for at, own in enumerate(pointing) if any(words[place].tag.startswith(OBJECT) for place in own)
     ]
     nobody = (
         at
         for at, place in enumerate(alone)
         if 0 <= place < len(words) - 1
         and words[place].tag.startswith("PRON:neg")
-        and words[place + 1].tag.startswith("PRON:obj")
+        and words[place + 1].tag.startswith(OBJECT)
     )
     at = next(nobody, -1)
     if not objects or objects[0] >= at:

@@ -15,14 +15,14 @@ from teo_sign_translator.morphology import gloss_name
 from teo_sign_translator.morphology.lexicon import nouns
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pointer import OutputGloss
-from teo_sign_translator.text.source_word import SourceWord
+from teo_sign_translator.text.source_word import CLITICS, SourceWord
 
 #: Classes of nouns that may do what a verb says, so that they could be taken for its subject.
 _DOERS = frozenset({"person", "family", "profession", "animal", "group"})
 _BEFORE_NOUNS = ("DET", "A:", "NUM")
 _PERSONS = ("PRON", "NAME")
 #: What stands between a verb and what opens its clause ("que no me gustó").
-_BEFORE_VERBS = ("PRON:obj", "PRON:refl", "DET:def", "ADV")
+_BEFORE_VERBS = (*CLITICS, "DET:def", "ADV")
 
 
 class Topics:

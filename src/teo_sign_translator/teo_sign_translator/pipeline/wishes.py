@@ -14,16 +14,15 @@ from collections.abc import Sequence
 from teo_sign_translator.pipeline.completeness import CompleteTranslation, read_gloss
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pipeline.topic import Topics
-from teo_sign_translator.text.source_word import SourceWord
+from teo_sign_translator.text.source_word import CLITICS, OBJECT, SourceWord, between_marks
 
 _WISHED = re.compile(r"V:sub:.*:(3[sp])")
-_CLITICS = ("PRON:obj:", "PRON:refl")
 #: What may stand between what joins a wish and its verb.
-_BETWEEN = ("ADV", *_CLITICS)
+_BETWEEN = ("ADV", *CLITICS)
 #: Of words that may name who does it.
 _PERSONS = ("N:", "NAME", "PRON")
 _SIGNERS = re.compile(r"V:.*:1[sp]")
-_FELT = "PRON:obj:1"
+_FELT = f"{OBJECT}1"
 
 
 class Wishes:
@@ -60,8 +59,7 @@ class Wishes:
         joiner = next(before, 0)
         if words[joiner].form != self._who.joiner or words[verb].readings[0].lemma in self._done_by_nobody:
             return 0
-        start = next((at + 1 for at in range(joiner - 1, -1, -1) if words[at].is_mark), 0)
-        stop = next((at for at in range(verb, len(words)) if words[at].is_mark), len(words))
+        start, stop = between_marks(words, verb)
         main = [word.readings[0] for word in words[start:joiner]]
         feels = any(reading.tag.startswith(_FELT) for reading in main)
         acts = any(_SIGNERS.fullmatch(reading.tag) for reading in main)
@@ -77,7 +75,7 @@ class Wishes:
         tag = word.tag
         return (
             tag.startswith(_PERSONS)
-            and not tag.startswith((*_CLITICS, "PRON:rel"))
+            and not tag.startswith((*CLITICS, "PRON:rel"))
             and self._topics.may_do(word)
         )
 
@@ -91,7 +89,7 @@ class Wishes:
         while place > 0 and behind[place - 1]:
             place -= 1
         who = read_gloss(self._who.pointing[person], verb)
-        clitic = words[verb - 1].tag.removeprefix(_CLITICS[0])
+        clitic = words[verb - 1].tag.removeprefix(OBJECT)
         to_whom = self._who.pointing[clitic] if clitic in self._who.clitics.values() else ""
         own = [gloss for at, gloss in enumerate(said.glosses) if behind[at] and gloss.gloss in self._names]
         if place < 0 or any(gloss.gloss != to_whom or verb in gloss.sources for gloss in own):

@@ -11,10 +11,9 @@ from itertools import pairwise
 
 from teo_sign_translator.morphology import Morphology, Reading
 from teo_sign_translator.text.rules import TextRules
-from teo_sign_translator.text.source_word import SourceWord
+from teo_sign_translator.text.source_word import CLITICS, SourceWord
 
 _FINITE = ("V:ind", "V:sub", "V:cond", "V:imp")
-_OBJECTS = ("PRON:obj", "PRON:refl")
 _MASCULINE = re.compile("[NA]:[mc][sn]|V:part:ms")
 # Forms of a verb that tell its person, as not every language's do.
 _PERSONAL = re.compile(f"(?:{'|'.join(_FINITE)}).*:[123][sp]")
@@ -57,7 +56,7 @@ def told_by_neighbours(words: list[SourceWord], morphology: Morphology) -> list[
         elif behind_copula or before in told.before_nouns or (before in told.before_masculine and masculine):
             readings = _without_verbs(word.readings, prepositions=behind_copula)
             words[place] = replace(word, readings=readings if behind_copula else _no_participles(readings))
-        elif place and words[place - 1].tag.startswith(_OBJECTS):
+        elif place and words[place - 1].tag.startswith(CLITICS):
             words[place] = replace(word, readings=_no_orders(word.readings))
         before = word.form
         behind_copula = word.readings[0].lemma in told.copulas or (
@@ -81,9 +80,9 @@ def _behind(words: Sequence[SourceWord], place: int, morphology: Morphology) -> 
         return word.readings
     if any(each.exact for each in verbs) and all(each.tag in _SUBJECTS for each in before.readings):
         return tuple(each for each in word.readings if not each.tag.startswith("N:"))
-    doubled = place > 1 and words[place - 2].tag.startswith(_OBJECTS)  # me lo
-    if all(each.tag.startswith(_OBJECTS) for each in before.readings) or (
-        doubled and before.tag.startswith(_OBJECTS)
+    doubled = place > 1 and words[place - 2].tag.startswith(CLITICS)  # me lo
+    if all(each.tag.startswith(CLITICS) for each in before.readings) or (
+        doubled and before.tag.startswith(CLITICS)
     ):
         return verbs if any(each.exact for each in verbs) else word.readings
     tags = [each.tag for each in before.readings if each.exact]
@@ -163,9 +162,7 @@ def _as_order(readings: tuple[Reading, ...]) -> tuple[Reading, ...]:
 def _is_participle(word: SourceWord, *, behind: SourceWord | None) -> bool:
     """Whether a word is a verb's participle here; what may be a noun is one behind an object's pronoun."""
     tags = [reading.tag for reading in word.readings if reading.exact]
-    object_before = behind is not None and any(
-        reading.tag.startswith(_OBJECTS) for reading in behind.readings
-    )
+    object_before = behind is not None and any(reading.tag.startswith(CLITICS) for reading in behind.readings)
     return any(tag == "V:part:ms" for tag in (tags if object_before else tags[:1]))
 
 

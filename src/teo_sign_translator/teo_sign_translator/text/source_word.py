@@ -4,9 +4,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from teo_sign_translator.morphology import Reading
+
+#: How the tag of an object pronoun begins, before its person and number.
+OBJECT = "PRON:obj:"
+#: How those of the pronouns begin that lean on a verb.
+CLITICS = (OBJECT, "PRON:refl")
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,3 +45,10 @@ class SourceWord:
     def is_mark(self) -> bool:
         """Whether it is punctuation."""
         return self.tag == "MARK"
+
+
+def between_marks(words: Sequence[SourceWord], place: int) -> tuple[int, int]:
+    """Where the words between two marks begin and end."""
+    start = max((index + 1 for index in range(place) if words[index].is_mark), default=0)
+    stop = next((index for index in range(place, len(words)) if words[index].is_mark), len(words))
+    return start, stop
