@@ -16,7 +16,7 @@ import pytest
 from aiohttp import web
 from console_api import WEB, Api
 from made_bags import signing, write_bag
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Browser, Page, Route, expect
 from watched_page import accessible, photograph
 
 from teo_console.api.dictionary import sign_writing_routes
@@ -172,12 +172,29 @@ def test_at_200_percent_the_header_leaves_three_quarters_of_the_screen(api: Api,
 
 def test_at_1100_pixels_the_header_is_one_line_in_both_languages(api: Api, page: Page) -> None:
     page.goto(api.url)
-    for language in ("es", "en"):
-        expect(page.locator("html")).to_have_attribute("lang", language)
+    for watch in ("Ver", "Watch"):
+        expect(page.locator("nav a").first).to_have_text(watch)
         boxes = page.locator("header > *").evaluate_all("parts => parts.map((part) => part.offsetTop)")
         tallest = page.locator("#stop").evaluate("button => button.offsetHeight")
         assert page.locator("header").evaluate("header => header.offsetHeight") < 2 * tallest, boxes
         page.click("#language")
+
+
+def test_a_language_chosen_before_the_page_has_words_is_the_one_it_speaks(api: Api, page: Page) -> None:
+    held: list[Route] = []
+    page.route("**/i18n/es*.json", lambda route: held.append(route))
+    page.goto(api.url)
+    page.click("#language")
+    expect(page.locator("nav a").first).to_have_text("Watch")
+    assert len(held) == 2
+    with page.expect_request_finished(lambda request: request.url.endswith("es.tabs.json")):
+        for route in held:
+            route.continue_()
+    page.evaluate("new Promise(requestAnimationFrame)")
+    expect(page.locator("html")).to_have_attribute("lang", "en")
+    expect(page.locator("#language")).to_have_text("Español")
+    page.reload()
+    expect(page.locator("nav a").first).to_have_text("Watch")
 
 
 def test_a_comprehension_test_is_taken_in_a_browser_tells_nothing_and_is_reported(

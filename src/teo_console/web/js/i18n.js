@@ -2,25 +2,28 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page's words in the user's language.
 
-import { settings } from "./settings.js";
+import { api } from "./api.js";
 
 let words = {};
 
+/** A language's words: those of the frame and Watch, and those of the other tabs. */
+export async function wordsOf(language) {
+  const files = [`/i18n/${language}.json`, `/i18n/${language}.tabs.json`];
+  return Object.assign({}, ...(await Promise.all(files.map(api.get))));
+}
+
 /**
- * Loads a language's words and writes them wherever the page has them.
+ * Writes a language's words wherever the page has them.
  * @param {string} language
+ * @param {Object<string, string>} spoken Its words.
  * @param {?Object} names Of the welcome: what `{robot}`, `{signs}` and `{spoken}` stand for; without, words of no name do.
  */
-export async function speak(language, names = null) {
-  // Those of the frame and Watch, and those of the other tabs.
-  const files = [`/i18n/${language}.json`, `/i18n/${language}.tabs.json`];
-  const loaded = await Promise.all(files.map(async (file) => (await fetch(file)).json()));
-  words = Object.assign({}, ...loaded);
+export function speak(language, spoken, names) {
+  words = spoken;
   if (names) {
-    const spoken = new Intl.DisplayNames([language], { type: "language" }).of(names.spoken);
-    Object.assign(words, { "name.robot": names.robot, "name.signs": names.signs, "name.spoken": spoken });
+    const named = new Intl.DisplayNames([language], { type: "language" }).of(names.spoken);
+    Object.assign(words, { "name.robot": names.robot, "name.signs": names.signs, "name.spoken": named });
   }
-  settings.set("language", language);
   document.documentElement.lang = language;
   document.title = t("title");
   for (const element of document.querySelectorAll("[data-t]")) element.textContent = t(element.dataset.t);

@@ -4,7 +4,7 @@
 
 import { api } from "./api.js";
 import { h } from "./dom.js";
-import { speak, t } from "./i18n.js";
+import { speak, t, wordsOf } from "./i18n.js";
 import { Live } from "./live.js";
 import { settings } from "./settings.js";
 import { RECONNECT, Socket } from "./socket.js";
@@ -136,18 +136,28 @@ async function rearm() {
   if (document.activeElement === document.body) element("stop").focus();
 }
 
-async function setLanguage(language) {
+/** Says all of the page in the language chosen, with the names known. */
+async function sayAll() {
+  const language = settings.get("language");
+  const words = await wordsOf(language);
+  if (language !== settings.get("language")) return; // another was chosen meanwhile, and is on its way
   const { names } = socket.welcome;
-  await speak(language, names);
+  speak(language, words, names);
   named = JSON.stringify(names);
-  const other = language === "es" ? "en" : "es";
+  const other = otherLanguage();
   element("language").textContent = other === "en" ? "English" : "Español";
   element("language").lang = other;
-  element("language").onclick = () => setLanguage(other);
   showStatus();
   await show();
 }
 
+const otherLanguage = () => (settings.get("language") === "es" ? "en" : "es");
+
+// From the start: whoever does not read the page's first language wants the other before its words are there.
+element("language").addEventListener("click", () => {
+  settings.set("language", otherLanguage());
+  return attempt(sayAll);
+});
 element("stop").addEventListener("click", () => attempt(() => socket.ask("command", { order: "stop" })));
 element("rearm").addEventListener("click", rearm);
 document.querySelector(".skip").addEventListener("click", (event) => {
@@ -166,7 +176,7 @@ socket.addEventListener("refused", ({ detail }) => {
 async function sayNames() {
   if (JSON.stringify(socket.welcome.names) === named) return;
   const anew = named && named !== "null";
-  await setLanguage(settings.get("language"));
+  await sayAll();
   if (anew) notify(t("names.now"));
 }
 socket.addEventListener("welcome", sayNames);
