@@ -77,6 +77,7 @@ class SubjectWords:
         believing: Verbs of what is held true, which may be about oneself in the subjunctive, too.
         able: Verb of what one can do.
         deeds: Verbs of what people do to each other.
+        beside: Prepositions before whom somebody is with.
     """
 
     joiner: str
@@ -90,6 +91,7 @@ class SubjectWords:
     believing: frozenset[str]
     able: str
     deeds: frozenset[str]
+    beside: frozenset[str]
 
 
 @dataclass(frozen=True)

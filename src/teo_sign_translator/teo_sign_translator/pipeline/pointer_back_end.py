@@ -26,6 +26,7 @@ from teo_sign_translator.pipeline.completeness import Completeness, CompleteTran
 from teo_sign_translator.pipeline.connectives import Connectives
 from teo_sign_translator.pipeline.counts import Counts
 from teo_sign_translator.pipeline.denials import Denials
+from teo_sign_translator.pipeline.doers import Doers
 from teo_sign_translator.pipeline.objects import Objects
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pipeline.reliability import features, reliability
@@ -125,6 +126,7 @@ class PointerBackEnd:
             Subjects(language, self._topics),
             Wishes(language, self._topics),
             Objects(language, self._topics),
+            Doers(language, self._topics),
         )
         self._weights = language.reliability
 
