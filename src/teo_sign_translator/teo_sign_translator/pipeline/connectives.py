@@ -19,7 +19,7 @@ from teo_sign_translator.morphology.lexicon import nouns
 from teo_sign_translator.pipeline.completeness import CompleteTranslation, read_gloss
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pointer import OutputGloss
-from teo_sign_translator.text.source_word import CLITICS, SourceWord
+from teo_sign_translator.text.source_word import CLITICS, COMPANIONS, SourceWord
 
 #: Classes of nouns through which, by which or at which something is done.
 _WAYS = frozenset({"place", "building", "room", "furniture", "body", "time"})
@@ -33,8 +33,6 @@ _AGENTS = frozenset({"person", "family", "profession", "animal", "group"})
 _SURFACES = frozenset({"furniture", "room"})
 #: What may stand between a preposition and its noun, and between what is spoken of and the preposition.
 _BETWEEN = ("DET", "A:", "NUM", "ADV", "PRON:obj")
-#: Persons behind a preposition, or in one word with it.
-_COMPANIONS = ("PRON:with", "PRON:prep")
 #: What begins something that is done.
 _DONE = ("V:ind", "ADV:neg", *CLITICS)
 
@@ -72,7 +70,7 @@ class Connectives:
         """The same with "with" or "for" where somebody only tells who is meant: "el que vive conmigo"."""
         for at, gloss in enumerate(said.glosses):
             place = gloss.sources[0] if len(gloss.sources) == 1 else 0
-            if not words[place].tag.startswith(_COMPANIONS):
+            if not words[place].tag.startswith(COMPANIONS):
                 continue
             forms = [word.form for word in words[max(0, place - 1) : place + 1]]
             name = next((self._said.companions[form] for form in forms if form in self._said.companions), "")

@@ -5,10 +5,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import pairwise
 
 from teo_sign_translator.pipeline.completeness import CompleteTranslation, read_gloss
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
+from teo_sign_translator.pointer.vocabulary import copied_gloss
 from teo_sign_translator.text.source_word import SourceWord
 
 
@@ -26,7 +28,24 @@ class Counts:
             words: Of the sentence.
             said: A translation of it.
         """
-        return self._with_one(words, self._with_span(words, said))
+        return self._with_how_many(words, self._with_one(words, self._with_span(words, said)))
+
+    def _with_how_many(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """The same with "how many" where nobody marvels: "pregunté cuánto costaba"."""
+        if any(word.form == "!" for word in words):
+            return said
+        glosses = tuple(
+            replace(gloss, gloss=self._said.how_many)
+            if gloss.gloss == self._said.many and any(self._asks(words[at]) for at in gloss.sources)
+            else gloss
+            for gloss in said.glosses
+        )
+        return replace(said, glosses=glosses)
+
+    def _asks(self, word: SourceWord) -> bool:
+        """Whether a word asks how many."""
+        reading = word.readings[0]
+        return reading.tag.startswith("WH") and copied_gloss(reading) == self._said.how_many
 
     def _with_one(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """The same with "1" where an article counts: "una hora", "solo hay una mujer"."""

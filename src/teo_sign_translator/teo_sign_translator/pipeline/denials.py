@@ -7,9 +7,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from teo_sign_translator.pipeline.completeness import CompleteTranslation
+from teo_sign_translator.pipeline.completeness import CompleteTranslation, read_gloss
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
+from teo_sign_translator.pointer import OutputGloss
+from teo_sign_translator.pointer.vocabulary import copied_gloss
 from teo_sign_translator.text.source_word import SourceWord
+
+#: What begins the name of who is left out, and what is done by all.
+_NAMED = ("DET:def", "DET:poss", "NAME", "PRON", "PREP")
+_FINITE = ("V:ind", "V:sub", "V:cond")
 
 
 class Denials:
@@ -26,7 +32,26 @@ class Denials:
             words: Of the sentence.
             said: A translation of it.
         """
-        return self._with_opposite(words, self._with_one_denial(words, said))
+        said = self._with_opposite(words, self._with_one_denial(words, said))
+        return self._with_exception(words, said)
+
+    def _with_exception(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """The same with who is left out of all behind them, and denied: "todos menos Luis aprobaron"."""
+        for place in range(1, len(words) - 1):
+            apart = words[place].form in self._said.apart and words[place + 1].tag.startswith(_NAMED)
+            if not apart or not any(word.readings[0].lemma in self._said.all for word in words[:place]):
+                continue
+            behind = range(place + 1, len(words))
+            stop = next((at for at in behind if words[at].tag.startswith(_FINITE) or words[at].is_mark), -1)
+            left = [_own(words, gloss) for gloss in said.glosses]
+            out = [at for at, own in enumerate(left) if own and own <= {*range(place + 1, stop)}]
+            lead = [at for at, own in enumerate(left) if at not in out and own != {place}]
+            negatives = {self._said.negation, *self._said.negatives}
+            denied = any(gloss.gloss in negatives for gloss in said.glosses)
+            if out and lead and not denied:
+                kept = said.in_order([*lead, *out])
+                return kept.with_glosses(len(kept.glosses), read_gloss(self._said.negation, place))
+        return said
 
     def _with_one_denial(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """The same without "not" beside "never" or "nobody", which denies alone: "no friega nunca"."""
@@ -52,3 +77,9 @@ class Denials:
         sources = {*kept.glosses[denied[-1]].sources, rather}
         negation = replace(kept.glosses[denied[-1]], sources=tuple(sorted(sources)))
         return kept.without(denied[-1:]).with_glosses(min(denied[-1], opposite), negation)
+
+
+def _own(words: Sequence[SourceWord], gloss: OutputGloss) -> set[int]:
+    """Of the words that a gloss stands for those whose dictionary form it is; all if none is."""
+    form = {at for at in gloss.sources if copied_gloss(words[at].readings[0]) == gloss.gloss}
+    return form or {*gloss.sources}

@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from teo_sign_translator.pipeline.completeness import CompleteTranslation, read_gloss
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pipeline.topic import Topics, behind_preposition
-from teo_sign_translator.text.source_word import CLITICS, SourceWord
+from teo_sign_translator.text.source_word import CLITICS, COMPANIONS, OBJECT, OPENING, SourceWord, clause_end
 
 _FINITE = ("V:ind", "V:sub", "V:cond", "V:imp")
 #: Of a verb that says by its form alone that it is neither the signer nor the addressee who does it.
@@ -25,8 +25,11 @@ _ASKING = "V:ind:pres:3s"
 _HIS = "DET:poss:3"
 #: What may stand between a verb that helps and the one that says what is done.
 _DONE = ("V:inf", "V:ger", "V:part")
-#: What a clause opens with, and what names somebody.
-_OPENING = ("MARK", "CONJ", "PRON:rel", "WH")
+#: Of what the signer does, and of what is done next.
+_SIGNERS = re.compile(r"V:(ind|sub|cond).*:1[sp]")
+_NEXT = re.compile(r"V:ind:(?!impf).*:(3[sp])")
+_THIRD = f"{OBJECT}3"
+_JOINING = ("MARK", "CONJ")
 _NAMES = ("N:", "NAME")
 
 
@@ -35,14 +38,17 @@ class Doers:
 
     def __init__(self, language: PipelineWords, topics: Topics) -> None:
         """Take how a language points at persons, and who may do things."""
-        self._who = language.subjects.pointing.get("3s", "")
-        self._persons = {*language.subjects.pointing.values(), *topics.subjects}
+        self._pointing = language.subjects.pointing
+        self._who = self._pointing.get("3s", "")
+        self._persons = {*self._pointing.values(), *topics.subjects}
         self._deeds = language.subjects.deeds
         self._done_by_nobody = (
             language.completeness.of_things
             | language.subjects.impersonal
             | language.persons.experiencer_verbs
         )
+        objects = language.persons.objects.items()
+        self._thirds = language.persons.things | {form for form, person in objects if person == "3"}
         self._towards, self._beside = language.persons.towards, language.subjects.beside
         self._topics = topics
 
@@ -53,16 +59,56 @@ class Doers:
             words: Of the sentence.
             said: A translation of it.
         """
+        return self._with_next(words, self._with_first(words, said))
+
+    def _with_next(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """The same with whom something is done to, where he does the next thing: "la llamé y no contestó"."""
+        start = 0
+        for opening, word in enumerate(words[:-1]):
+            if not word.tag.startswith(_JOINING):
+                continue
+            whom, start = self._done_to(words, start, opening), opening + 1
+            verb = next((at for at in range(start, len(words)) if words[at].tag.startswith(_FINITE)), -1)
+            stop = clause_end(words, start)
+            person = _NEXT.fullmatch(words[verb].tag) if start <= verb < stop else None
+            if person is None or whom < 0:
+                continue
+            named = any(self._may_do_it(words, at, stop) for at in range(start, stop))
+            by_nobody = words[verb].readings[0].lemma in self._done_by_nobody
+            own = [at for at, gloss in enumerate(said.glosses) if min(gloss.sources, default=-1) >= start]
+            before = (gloss.gloss for gloss in said.glosses if gloss.sources == (whom,))
+            who = next(before, self._pointing.get(person[1], ""))
+            pointed = any(said.glosses[at].gloss in (self._who, who) for at in own)
+            if who and own and not named and not by_nobody and not pointed:
+                return said.with_glosses(own[0], read_gloss(who, verb))
+        return said
+
+    def _done_to(self, words: Sequence[SourceWord], start: int, stop: int) -> int:
+        """Where a pronoun alone names whom the signer does something to in a clause; -1 if none does."""
+        if not any(_SIGNERS.fullmatch(word.tag) for word in words[start:stop]):
+            return -1
+        for at in range(start, stop):
+            pronoun = any(each.tag.startswith(_THIRD) for each in words[at].readings)
+            if pronoun and words[at + 1].tag.startswith(_FINITE):  # "la" is an article elsewhere
+                return at
+            if not self._thirds.isdisjoint(words[at].readings[0].clitics):
+                return at
+        return -1
+
+    def _with_first(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """The same with who is left out of the first clause."""
         verb = next((at for at, word in enumerate(words) if word.tag.startswith(_FINITE)), 0)
-        opened = any(word.tag.startswith(_OPENING) for word in words[:verb])
+        opened = any(word.tag.startswith(OPENING) for word in words[:verb])
         if opened or words[-1].form == "?" or not _OTHERS.fullmatch(words[verb].tag):
             return said
-        stop = next((at for at in range(verb, len(words)) if words[at].tag.startswith(_OPENING)), len(words))
-        if self._asks(words, verb) or any(self._may_do_it(words, at, verb) for at in range(stop)):
+        stop = clause_end(words, verb)
+        named = any(self._may_do_it(words, at, verb) for at in range(stop))
+        if stop == verb + 1 or named or self._asks(words, verb):
             return said
         others = {at for at in range(verb + 1, stop) if self._is_acted_on(words, at, verb)}
         place = next((at for at, gloss in enumerate(said.glosses) if others & {*gloss.sources}), -1)
-        if place < 0 or any(gloss.gloss in self._persons for gloss in said.glosses):
+        pointed = (gloss for gloss in said.glosses if gloss.gloss in self._persons)
+        if place < 0 or not all(others & {*gloss.sources} for gloss in pointed):
             return said
         while place > 0 and any(others & {at, at + 1, at + 2} for at in said.glosses[place - 1].sources):
             place -= 1  # "ese hombre"
@@ -70,14 +116,15 @@ class Doers:
 
     def _asks(self, words: Sequence[SourceWord], verb: int) -> bool:
         """Whether it may ask for something, "llama al médico", or say what one can, "se puede"."""
-        one_can = words[verb - 1].tag.startswith("PRON:refl") and words[verb + 1].tag == "V:inf"
-        asks = verb == 0 and words[0].tag == _ASKING and not words[1].tag.startswith(_DONE)
+        following = words[verb + 1].tag
+        one_can = words[verb - 1].tag.startswith("PRON:refl") and following == "V:inf"
+        asks = verb == 0 and words[0].tag == _ASKING and not following.startswith((*_DONE, "A:"))
         return one_can or (asks and not any(word.tag.startswith(_HIS) for word in words))
 
     def _may_do_it(self, words: Sequence[SourceWord], place: int, verb: int) -> bool:
         """Whether a word may name who does it: behind the verb of a deed somebody, else anything."""
         word = words[place]
-        if word.tag.startswith(CLITICS) or behind_preposition(words, place):
+        if word.tag.startswith((*CLITICS, *COMPANIONS)) or behind_preposition(words, place):
             return False
         if word.tag.startswith(("PRON", "A:")) and place < verb:
             return True
@@ -89,12 +136,15 @@ class Doers:
     def _is_acted_on(self, words: Sequence[SourceWord], place: int, verb: int) -> bool:
         """Whether a word names somebody whom what is done is done to, or with."""
         word = words[place]
+        happens = [each for each in words[verb:place] if each.tag.startswith((*_DONE, "A:"))] or [words[verb]]
+        done = {each.readings[0].lemma for each in (words[verb], *happens)}
+        if word.tag.startswith(COMPANIONS):
+            return happens[-1].readings[0].lemma not in self._done_by_nobody
         if not word.tag.startswith(_NAMES) or not self._topics.may_do(word):
             return False
         preposition = next(
             (each.form for each in reversed(words[verb:place]) if each.tag.startswith("PREP")), ""
         )
-        done = {each.readings[0].lemma for each in words[verb:place] if each.tag.startswith(("V:ind", *_DONE))}
         if preposition in self._beside:
-            return done.isdisjoint(self._done_by_nobody)
+            return happens[-1].readings[0].lemma not in self._done_by_nobody
         return preposition in self._towards and not done.isdisjoint(self._deeds)

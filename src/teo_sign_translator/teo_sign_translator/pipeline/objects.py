@@ -16,13 +16,11 @@ from typing import NamedTuple
 from teo_sign_translator.pipeline.completeness import CompleteTranslation, read_gloss
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pipeline.topic import Topics
-from teo_sign_translator.text.source_word import CLITICS, OBJECT, SourceWord
+from teo_sign_translator.text.source_word import CLITICS, OBJECT, OPENING, SourceWord, clause_end
 
 #: Of a verb that says by its form alone that it is neither the signer nor the addressee who does it.
 _SAYS_WHO = re.compile(r"V:ind:(?!impf).*:3s")
 _OTHERS = re.compile(r"V:ind:.*:3p")
-#: What a clause ends with or opens with.
-_OPENING = ("MARK", "CONJ", "PRON:rel", "WH")
 _NOUNS = ("N:", "NAME")
 _THIRD = "3"
 _SIGNER = "1s"
@@ -82,7 +80,7 @@ class Objects:
             to_whom = any(word.form in self._towards for word in words[max(0, verb - 3) : verb - 1])
             if not relative or not to_whom or not _OTHERS.fullmatch(words[verb].tag):
                 continue
-            named = any(self._topics.may_act(words, at) for at in range(verb + 1, _end(words, verb)))
+            named = any(self._topics.may_act(words, at) for at in range(verb + 1, clause_end(words, verb)))
             own = [at for at, gloss in enumerate(said.glosses) if verb in gloss.sources]
             if own and not named and not any(said.glosses[at].gloss in self._names for at in own):
                 return said.with_glosses(own[0], read_gloss(self._pointing["3p"], verb))
@@ -97,7 +95,7 @@ class Objects:
         if clitic == 0 or words[0].form not in self._towards:
             return said
         start = _behind(words, clitic)[-1] + 1
-        stop = _end(words, start, ("PREP", *_OPENING))
+        stop = clause_end(words, start, ("PREP", *OPENING))
         actor = words[start:stop]
         if not any(self._topics.may_do(word) and word.tag.startswith(_NOUNS) for word in actor):
             return said
@@ -157,8 +155,8 @@ class Objects:
     ) -> CompleteTranslation:
         """The same with whom it is done to, unless that is the signer: "¿cuándo te dan las notas?".
 
-        Signers leave themselves out, but for what they wish for ("que me llame"): of 21 known sentences that do
-        not say YO, no answer of 7 does, and all answers of none; of 7 without TÚ or NOSOTROS, all of 4 do.
+        Signers leave themselves out, but for what they wish for ("que me llame"): of 19 known translations
+        without YO all answers of one have it, that of a wish; of five without TÚ or NOSOTROS, of three.
         """
         _, verbs = self._said(said, deed)
         wished = words[deed.verbs[0]].tag.startswith("V:sub")
@@ -192,8 +190,8 @@ class Objects:
     def _is_named(self, words: Sequence[SourceWord], deed: _Deed) -> bool:
         """Whether the clause names who does it, is another's that does, or says that nobody does it."""
         before = range(deed.clitic, 0, -1)
-        start = next((at for at in before if words[at - 1].tag.startswith(_OPENING)), 0)
-        stop = _end(words, deed.verbs[-1] + 1)
+        start = next((at for at in before if words[at - 1].tag.startswith(OPENING)), 0)
+        stop = clause_end(words, deed.verbs[-1] + 1)
         joined = start > 0 and words[start - 1].form == self._who.joiner
         pronouns = words[max(0, deed.clitic - 1) : deed.verbs[0]]
         happens = any(word.tag.startswith("PRON:refl") for word in pronouns)  # se me olvidó
@@ -206,11 +204,6 @@ class Objects:
             return False
         names = self._topics.may_act(words, place) and (place < deed.clitic or self._topics.may_do(word))
         return names or word.tag.startswith(("PRON:", "WH"))
-
-
-def _end(words: Sequence[SourceWord], place: int, tags: tuple[str, ...] = _OPENING) -> int:
-    """Where what stands at a place ends: before the next word of some kinds."""
-    return next((at for at in range(place, len(words)) if words[at].tag.startswith(tags)), len(words))
 
 
 def _behind(words: Sequence[SourceWord], clitic: int) -> tuple[int, ...]:

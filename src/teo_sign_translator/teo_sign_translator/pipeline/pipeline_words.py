@@ -75,6 +75,7 @@ class SubjectWords:
         adjuncts: Others: when, if.
         impersonal: Verbs whose third person may be nobody.
         believing: Verbs of what is held true, which may be about oneself in the subjunctive, too.
+        wanting: Verbs of what one wants somebody to do.
         able: Verb of what one can do.
         deeds: Verbs of what people do to each other.
         beside: Prepositions before whom somebody is with.
@@ -89,6 +90,7 @@ class SubjectWords:
     adjuncts: frozenset[str]
     impersonal: frozenset[str]
     believing: frozenset[str]
+    wanting: frozenset[str]
     able: str
     deeds: frozenset[str]
     beside: frozenset[str]
@@ -148,6 +150,8 @@ class DenialWords:
         negatives: Glosses that deny and say more.
         rather: Word of "but" behind what is denied.
         but: Its gloss.
+        all: Dictionary forms of those of whom one is left out.
+        apart: Words before who is left out.
     """
 
     denying: str
@@ -155,6 +159,8 @@ class DenialWords:
     negatives: frozenset[str]
     rather: str
     but: str
+    all: frozenset[str]
+    apart: frozenset[str]
 
 
 @dataclass(frozen=True)
@@ -162,6 +168,8 @@ class CountWords:
     """How many; the section `counts`. All may be empty.
 
     Attributes:
+        how_many: Gloss of a question word that may count, too: how many, so many.
+        many: Its gloss where it counts.
         one: Articles that count, before a measure or behind "only".
         only: Words of "only".
         measures: Nouns of measures.
@@ -170,6 +178,8 @@ class CountWords:
         until: Gloss between these.
     """
 
+    how_many: str
+    many: str
     one: frozenset[str]
     only: frozenset[str]
     measures: frozenset[str]

@@ -22,6 +22,8 @@ _BETWEEN = ("ADV", *CLITICS)
 #: Of words that may name who does it.
 _PERSONS = ("N:", "NAME", "PRON")
 _SIGNERS = re.compile(r"V:.*:1[sp]")
+_ANOTHERS = re.compile(r"V:.*:[23][sp]")
+_SIGNER = "1s"
 _FELT = f"{OBJECT}1"
 
 
@@ -51,13 +53,16 @@ class Wishes:
             joiner = self._joiner(words, verb) if person else 0
             if person and joiner:
                 said = self._with_others(words, said, verb, joiner, person[1])
+            joiner = self._asked_of_signer(words, verb) if person and person[1] == "3s" else 0
+            signer = self._who.pointing.get(_SIGNER, "")
+            if joiner and not any(gloss.gloss == signer for gloss in said.glosses):
+                said = self._with_others(words, said, verb, joiner, _SIGNER)
         return said
 
     def _joiner(self, words: Sequence[SourceWord], verb: int) -> int:
         """Place of what joins a wish of the signer's to its verb, if nobody is named in either; else 0."""
-        before = (at for at in range(verb - 1, 0, -1) if not words[at].tag.startswith(_BETWEEN))
-        joiner = next(before, 0)
-        if words[joiner].form != self._who.joiner or words[verb].readings[0].lemma in self._done_by_nobody:
+        joiner = self._joins(words, verb)
+        if not joiner:
             return 0
         start, stop = between_marks(words, verb)
         main = [word.readings[0] for word in words[start:joiner]]
@@ -70,6 +75,31 @@ class Wishes:
         is_own = able and any(reading.lemma in self._who.believing for reading in main)
         named = any(self._names_somebody(words[at]) for at in range(start, stop))
         return joiner if is_signers and not is_own and not named else 0
+
+    def _asked_of_signer(self, words: Sequence[SourceWord], verb: int) -> int:
+        """Place of what joins a wish of somebody else's to what the signer should do; else 0.
+
+        "¿Qué quieres que haga?", "mi jefe quiere que trabaje": the wish names nobody, and who wishes is
+        another than who should do it.
+        """
+        joiner = self._joins(words, verb)
+        main = words[joiner - 1].readings[0] if joiner else None
+        if main is None or main.lemma not in self._who.wanting or not _ANOTHERS.fullmatch(main.tag):
+            return 0
+        _, stop = between_marks(words, verb)
+        clitics = any(word.tag.startswith(CLITICS) for word in words[joiner - 2 : joiner])
+        named = clitics or any(self._names_somebody(words[at]) for at in range(joiner + 1, stop))
+        return 0 if named else joiner
+
+    def _joins(self, words: Sequence[SourceWord], verb: int) -> int:
+        """Place of what joins a wish to its verb; 0 if nothing does, or nobody does what the verb says."""
+        before = (at for at in range(verb - 1, 0, -1) if not words[at].tag.startswith(_BETWEEN))
+        joiner = next(before, 0)
+        joins = words[joiner].form == self._who.joiner
+        # Nobody does it in "quieres que haga sol", but somebody in "qué quieres que haga".
+        is_last = all(word.is_mark for word in words[verb + 1 : verb + 2])
+        done = is_last or words[verb].readings[0].lemma not in self._done_by_nobody
+        return joiner if joins and done else 0
 
     def _names_somebody(self, word: SourceWord) -> bool:
         tag = word.tag

@@ -30,6 +30,8 @@ def told_by_neighbours(words: list[SourceWord], morphology: Morphology) -> list[
         written = told.perfect.get(word.form)
         if written and not _is_participle(following, behind=words[place - 1] if place else None):
             written = None
+        if place == 0 and following.tag.startswith(("ADV:neg", *CLITICS, *_FINITE)):
+            written = told.opening.get(word.form, written)
         if following.tag.startswith("V:inf"):
             written = told.infinitive.get(word.form, written)
         if written:

@@ -215,6 +215,7 @@ class Neighbours:
         degrees: Forms that may stand between a copula and what it says.
         perfect: What is typed for a form of the perfect's verb, in haste, and that form ("me a dicho": ha).
         infinitive: What is typed for a form that an infinitive may follow, and that form ("se ir solo": sé).
+        opening: What means something else before the first verb, and that word ("igual viene": quizás).
         motion: Lemmas of verbs whose form is no noun before what one comes to do ("vino a cenar").
         amounts: Forms that are no verb before others, and these ("nada más", "nada de").
     """
@@ -225,6 +226,7 @@ class Neighbours:
     degrees: frozenset[str]
     perfect: dict[str, str]
     infinitive: dict[str, str]
+    opening: dict[str, str]
     motion: frozenset[str]
     amounts: dict[str, str]
 

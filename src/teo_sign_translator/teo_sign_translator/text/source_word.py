@@ -13,6 +13,11 @@ from teo_sign_translator.morphology import Reading
 OBJECT = "PRON:obj:"
 #: How those of the pronouns begin that lean on a verb.
 CLITICS = (OBJECT, "PRON:refl")
+#: How those begin of persons behind a preposition, or in one word with it.
+COMPANIONS = ("PRON:with", "PRON:prep")
+
+#: What a clause ends before or opens with.
+OPENING = ("MARK", "CONJ", "PRON:rel", "WH")
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,3 +57,8 @@ def between_marks(words: Sequence[SourceWord], place: int) -> tuple[int, int]:
     start = max((index + 1 for index in range(place) if words[index].is_mark), default=0)
     stop = next((index for index in range(place, len(words)) if words[index].is_mark), len(words))
     return start, stop
+
+
+def clause_end(words: Sequence[SourceWord], place: int, tags: tuple[str, ...] = OPENING) -> int:
+    """Where what stands at a place ends: before the next word of some kinds."""
+    return next((at for at in range(place, len(words)) if words[at].tag.startswith(tags)), len(words))
