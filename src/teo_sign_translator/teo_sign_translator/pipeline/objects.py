@@ -148,7 +148,7 @@ class Objects:
             return said
         if to_whom.gloss not in pointed:
             return said.with_glosses(verbs[0], who, to_whom)
-        return said.with_glosses(own[0], who) if own[0] < verbs[0] else said
+        return said.with_glosses(min(own[0], verbs[0]), who)
 
     def _with_whom(
         self, words: Sequence[SourceWord], said: CompleteTranslation, deed: _Deed

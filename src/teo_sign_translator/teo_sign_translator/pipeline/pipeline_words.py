@@ -76,6 +76,7 @@ class SubjectWords:
         impersonal: Verbs whose third person may be nobody.
         believing: Verbs of what is held true, which may be about oneself in the subjunctive, too.
         wanting: Verbs of what one wants somebody to do.
+        asking: Verbs that ask whom they are said to for something.
         able: Verb of what one can do.
         deeds: Verbs of what people do to each other.
         beside: Prepositions before whom somebody is with.
@@ -91,6 +92,7 @@ class SubjectWords:
     impersonal: frozenset[str]
     believing: frozenset[str]
     wanting: frozenset[str]
+    asking: frozenset[str]
     able: str
     deeds: frozenset[str]
     beside: frozenset[str]

@@ -62,7 +62,7 @@ class Wishes:
     def _joiner(self, words: Sequence[SourceWord], verb: int) -> int:
         """Place of what joins a wish of the signer's to its verb, if nobody is named in either; else 0."""
         joiner = self._joins(words, verb)
-        if not joiner:
+        if not joiner or words[verb].readings[0].lemma in self._done_by_nobody:
             return 0
         start, stop = between_marks(words, verb)
         main = [word.readings[0] for word in words[start:joiner]]
@@ -73,7 +73,8 @@ class Wishes:
         is_signers = feels if before_joiner.startswith("N:") else acts or (feels and before_joiner != "PREP")
         able = words[verb].readings[0].lemma == self._who.able
         is_own = able and any(reading.lemma in self._who.believing for reading in main)
-        named = any(self._names_somebody(words[at]) for at in range(start, stop))
+        asked = feels and any(reading.lemma in self._who.asking for reading in main)  # "me dijo que viniera"
+        named = asked or any(self._names_somebody(words[at]) for at in range(start, stop))
         return joiner if is_signers and not is_own and not named else 0
 
     def _asked_of_signer(self, words: Sequence[SourceWord], verb: int) -> int:
@@ -84,7 +85,8 @@ class Wishes:
         """
         joiner = self._joins(words, verb)
         main = words[joiner - 1].readings[0] if joiner else None
-        if main is None or main.lemma not in self._who.wanting or not _ANOTHERS.fullmatch(main.tag):
+        wants = main is not None and main.lemma in self._who.wanting and _ANOTHERS.fullmatch(main.tag)
+        if not wants or not self._is_done(words, verb):
             return 0
         _, stop = between_marks(words, verb)
         clitics = any(word.tag.startswith(CLITICS) for word in words[joiner - 2 : joiner])
@@ -92,14 +94,16 @@ class Wishes:
         return 0 if named else joiner
 
     def _joins(self, words: Sequence[SourceWord], verb: int) -> int:
-        """Place of what joins a wish to its verb; 0 if nothing does, or nobody does what the verb says."""
+        """Place of what joins a wish to its verb; 0 if nothing does."""
         before = (at for at in range(verb - 1, 0, -1) if not words[at].tag.startswith(_BETWEEN))
         joiner = next(before, 0)
-        joins = words[joiner].form == self._who.joiner
-        # Nobody does it in "quieres que haga sol", but somebody in "qué quieres que haga".
+        return joiner if words[joiner].form == self._who.joiner else 0
+
+    def _is_done(self, words: Sequence[SourceWord], verb: int) -> bool:
+        """Whether a verb is of what somebody does: "haga" at the end, but not in "haga sol"."""
+        lemma = words[verb].readings[0].lemma
         is_last = all(word.is_mark for word in words[verb + 1 : verb + 2])
-        done = is_last or words[verb].readings[0].lemma not in self._done_by_nobody
-        return joiner if joins and done else 0
+        return lemma not in self._done_by_nobody or (is_last and lemma in self._who.impersonal)
 
     def _names_somebody(self, word: SourceWord) -> bool:
         tag = word.tag

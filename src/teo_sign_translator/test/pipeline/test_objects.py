@@ -8,6 +8,7 @@ import pytest
 from loaded import TEXT, read
 
 from teo_sign_translator.pipeline.completeness import CompleteTranslation
+from teo_sign_translator.pipeline.doers import Doers
 from teo_sign_translator.pipeline.objects import Objects
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pipeline.topic import Topics
@@ -16,9 +17,10 @@ from teo_sign_translator.pointer import OutputGloss
 
 OBJECTS = Objects(PipelineWords.load(TEXT), Topics(TEXT))
 WISHES = Wishes(PipelineWords.load(TEXT), Topics(TEXT))
+DOERS = Doers(PipelineWords.load(TEXT), Topics(TEXT))
 
 
-def meant(rule: Objects | Wishes, sentence: str, model: str) -> str:
+def meant(rule: Objects | Wishes | Doers, sentence: str, model: str) -> str:
     """What is signed where a model says these glosses, each with the word that it says: `TÚ/te`."""
     words = read(sentence)
     forms = [word.form for word in words]
@@ -61,6 +63,12 @@ def meant(rule: Objects | Wishes, sentence: str, model: str) -> str:
         ("¿Quién te llamó?", "TÚ/te LLAMAR/llamó QUIÉN/quién", "TÚ LLAMAR QUIÉN"),
         ("¿Me ayuda?", "AYUDAR/ayuda", "AYUDAR"),  # the addressee, politely
         ("La mujer que me llamó.", "MUJER/mujer YO/me LLAMAR/llamó", "MUJER YO LLAMAR"),
+        # Whom it is done to, unless that is the signer.
+        ("¿Quién te llamó?", "LLAMAR/llamó QUIÉN/quién", "TÚ LLAMAR QUIÉN"),
+        ("¿Cuándo os dan las notas?", "NOTA/notas DAR/dan CUÁNDO/cuándo", "NOTA VOSOTROS DAR CUÁNDO"),
+        ("¿Quién me llamó?", "LLAMAR/llamó QUIÉN/quién", "LLAMAR QUIÉN"),
+        ("Dile a Ana que me llame.", "ANA/ana DECIR/dile LLAMAR/llame", "ANA DECIR YO LLAMAR"),
+        ("Se nos acabó el pan.", "PAN/pan ACABAR/acabó", "PAN ACABAR"),
         # Who does it stands first, and others do what nobody is named for.
         ("Al perro lo persigue el gato.", "PERRO/perro GATO/gato PERSEGUIR/persigue", "GATO PERRO PERSEGUIR"),
         ("Al perro lo lavamos.", "PERRO/perro NOSOTROS/lavamos LAVAR/lavamos", "PERRO NOSOTROS LAVAR"),
@@ -88,6 +96,13 @@ def test_who_is_left_out_is_not_taken_for_another(sentence: str, model: str, sig
             "ESPERAR/espero LIBRO/libro DEVOLVER/devuelva",
             "ESPERAR ÉL YO LIBRO DEVOLVER",
         ),
+        # What somebody else wants is asked of the signer.
+        (
+            "Mi jefe quiere que trabaje.",
+            "JEFE/jefe QUERER/quiere TRABAJAR/trabaje",
+            "JEFE QUERER YO TRABAJAR",
+        ),
+        ("¿Qué quieres que haga?", "QUERER/quieres HACER/haga QUÉ/qué", "QUERER YO HACER QUÉ"),
         # One more of the signer that no word says.
         (
             "No quiero que me mientan.",
@@ -97,7 +112,9 @@ def test_who_is_left_out_is_not_taken_for_another(sentence: str, model: str, sig
         ("Le dejo la llave para que venga.", "LLAVE/llave DEJAR/dejo VENIR/venga", "LLAVE DEJAR ÉL VENIR"),
         # Somebody is named, or meant already.
         ("Quiero que me llame Ana.", "QUERER/quiero ANA/ana LLAMAR/llame", "QUERER ANA LLAMAR"),
-        ("Mi madre quiere que venga.", "MADRE/madre QUERER/quiere VENIR/venga", "MADRE QUERER VENIR"),
+        ("Mi madre quiere que Ana venga.", "MADRE/madre QUERER/quiere VENIR/venga", "MADRE QUERER VENIR"),
+        ("¿Quieres que haga sol?", "QUERER/quieres SOL/sol HACER/haga", "QUERER SOL HACER"),
+        ("Me pide que venga.", "YO/me PEDIR/pide VENIR/venga", "YO PEDIR VENIR"),
         ("Quiero que venga.", "QUERER/quiero ÉL/venga VENIR/venga", "QUERER ÉL VENIR"),
         # Nobody does it, or the signer.
         ("Espero que llueva.", "ESPERAR/espero LLOVER/llueva", "ESPERAR LLOVER"),
@@ -111,3 +128,43 @@ def test_who_wishes_something_is_not_taken_for_who_should_do_it(
     sentence: str, model: str, signed: str
 ) -> None:
     assert meant(WISHES, sentence, model) == signed
+
+
+@pytest.mark.parametrize(
+    ("sentence", "model", "signed"),
+    [
+        # Only somebody else is named, whom it is done to or with.
+        ("Llamó a su madre.", "MADRE/madre SU/su LLAMAR/llamó", "ÉL MADRE SU LLAMAR"),
+        ("Ayer cenó con mi hermano.", "AYER/ayer HERMANO/hermano CENAR/cenó", "AYER ÉL HERMANO CENAR"),
+        ("Vio a ese hombre.", "ESE/ese HOMBRE/hombre VER/vio", "ÉL ESE HOMBRE VER"),
+        ("Está enfadada conmigo.", "YO/conmigo ENFADADO/enfadada", "ÉL YO ENFADADO"),
+        ("Se ríe de mí.", "YO/mí REÍR/ríe", "ÉL YO REÍR"),
+        ("Cuida a su madre.", "MADRE/madre SU/su CUIDAR/cuida", "ÉL MADRE SU CUIDAR"),
+        # Who does it is named, or is nobody, or is asked.
+        ("Ana llamó a su madre.", "ANA/ana MADRE/madre LLAMAR/llamó", "ANA MADRE LLAMAR"),
+        ("Llamó Ana a su madre.", "ANA/ana MADRE/madre LLAMAR/llamó", "ANA MADRE LLAMAR"),
+        (
+            "Los sordos hablan con sus amigos.",
+            "SORDO/sordos AMIGO/amigos HABLAR/hablan",
+            "SORDO AMIGO HABLAR",
+        ),
+        ("Llama al médico.", "MÉDICO/médico LLAMAR/llama", "MÉDICO LLAMAR"),
+        ("¿Llamó a su madre?", "MADRE/madre LLAMAR/llamó", "MADRE LLAMAR"),
+        ("Despidieron a mi hermano.", "HERMANO/hermano DESPEDIR/despidieron", "HERMANO DESPEDIR"),
+        ("No se puede entrar con perros.", "PERRO/perros ENTRAR/entrar NO/no", "PERRO ENTRAR NO"),
+        ("Le gusta a mi hermano.", "HERMANO/hermano GUSTAR/gusta", "HERMANO GUSTAR"),
+        ("Fue al médico.", "MÉDICO/médico IR/fue", "MÉDICO IR"),
+        # Whom the signer does something to does the next thing.
+        ("La llamé y no contestó.", "YO/llamé LLAMAR/llamé CONTESTAR/contestó", "YO LLAMAR ÉL CONTESTAR"),
+        (
+            "La llamé y no contestó.",
+            "YO/llamé ELLA/la LLAMAR/llamé CONTESTAR/contestó",
+            "YO ELLA LLAMAR ELLA CONTESTAR",
+        ),
+        ("Los invité y vinieron.", "YO/invité INVITAR/invité VENIR/vinieron", "YO INVITAR ELLOS VENIR"),
+        ("Le escribí y contestó Ana.", "YO/escribí ESCRIBIR/escribí ANA/ana", "YO ESCRIBIR ANA"),
+        ("Lo lavé y me fui.", "YO/lavé LAVAR/lavé IR/fui", "YO LAVAR IR"),
+    ],
+)
+def test_who_is_named_is_not_taken_for_who_does_it(sentence: str, model: str, signed: str) -> None:
+    assert meant(DOERS, sentence, model) == signed
