@@ -41,6 +41,8 @@ _ANY = "*"
 _THIRD = (":3s", ":3p")
 # Tags of words that LSE signs last.
 _LAST = ("WH",)
+# Of words that may be signed at two places.
+_AGAIN = ("ADV:neg", "PRON", "DET:poss")
 
 
 @dataclass(frozen=True, slots=True)
@@ -198,7 +200,7 @@ class Completeness:
         candidates = [
             tuple(
                 each
-                for each in _each_word_once(words, hypothesis.glosses)
+                for each in self._each_word_once(words, hypothesis.glosses)
                 if each.gloss not in self.words.unsaid
             )
             for hypothesis in hypotheses
@@ -223,6 +225,41 @@ class Completeness:
             glosses.insert(index, gloss)
             put_back.insert(index, True)
         return CompleteTranslation(tuple(glosses), tuple(put_back))
+
+    def _each_word_once(
+        self, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]
+    ) -> tuple[OutputGloss, ...]:
+        """Glosses without marks, without those carried over again, and none said twice in a row for no word.
+
+        Of two for one word of a meaning of its own the one stays that stands for less besides it or is
+        counted, else the later one: what modifies stands behind.
+        """
+        by_gloss, _ = _places(words)
+        taken: set[int] = set()
+        result: list[OutputGloss] = []
+        for gloss in glosses:
+            own = by_gloss.get(gloss.gloss, [])
+            if not any(map(str.isalnum, gloss.gloss)):
+                continue
+            again = bool(result) and result[-1].gloss == gloss.gloss
+            if taken.issuperset(own) and (again or (gloss.copied and own)):
+                continue
+            said = [each for each in result if each.gloss == gloss.gloss]
+            looked_at = set(own) & {*gloss.sources}
+            if said and taken >= looked_at and any(map(self._has_meaning, (words[at] for at in looked_at))):
+                before = result[: result.index(said[-1])]
+                counted = bool(before) and before[-1].gloss[0].isdigit()
+                if counted or len(gloss.sources) > len(said[-1].sources):
+                    continue
+                result.remove(said[-1])
+            if own:
+                taken.add(_likeliest(own, gloss, taken))
+            result.append(gloss)
+        return tuple(result)
+
+    def _has_meaning(self, word: SourceWord) -> bool:
+        """Whether a word is no function word and denies nothing: both may be said again where they belong."""
+        return not word.tag.startswith(_AGAIN) and not self.function_words.may_be_left_out(word)
 
     def left_out(self, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> list[int]:
         """Places of the words that have to be signed and that no gloss signs."""
@@ -322,24 +359,6 @@ def _read_wordless(path: Path) -> dict[str, tuple[str, ...]] | None:
 def _as_typed(word: SourceWord) -> Sequence[Reading]:
     """What a word is as it was typed; what it would be with other accents, where it is nothing so."""
     return [reading for reading in word.readings if reading.exact] or word.readings
-
-
-def _each_word_once(words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> tuple[OutputGloss, ...]:
-    """Glosses without marks, without those carried over again, and none said twice in a row for no word."""
-    by_gloss, _ = _places(words)
-    taken: set[int] = set()
-    result: list[OutputGloss] = []
-    for gloss in glosses:
-        own = by_gloss.get(gloss.gloss, [])
-        if not any(map(str.isalnum, gloss.gloss)):
-            continue
-        again = bool(result) and result[-1].gloss == gloss.gloss
-        if taken.issuperset(own) and (again or (gloss.copied and own)):
-            continue
-        if own:
-            taken.add(_likeliest(own, gloss, taken))
-        result.append(gloss)
-    return tuple(result)
 
 
 def _likeliest(places: Iterable[int], gloss: OutputGloss, taken: set[int]) -> int:
