@@ -8,20 +8,28 @@ pronoun that Spanish puts in place of the second noun, "el nuestro", would be re
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from teo_sign_translator.pipeline.completeness import CompleteTranslation, read_gloss
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
-from teo_sign_translator.text.source_word import SourceWord
+from teo_sign_translator.pipeline.topic import Topics
+from teo_sign_translator.pointer import OutputGloss
+from teo_sign_translator.pointer.vocabulary import copied_gloss
+from teo_sign_translator.text.source_word import SourceWord, clause_end
 
+#: How many words before "que" may stand what compares: "más gente que", but "dice que ayer" compares nothing.
+_NEAR = 3
+_PRESENT = re.compile(r"V:ind:pres:.*")
 _POSSESSIVES = ("DET:poss", "PRON:poss")
 
 
 class Comparisons:
     """Reads what a language compares."""
 
-    def __init__(self, language: PipelineWords) -> None:
-        """Take how a language compares and denies."""
+    def __init__(self, language: PipelineWords, topics: Topics) -> None:
+        """Take how a language compares and denies, and what are times."""
+        self._topics = topics
         self._said = language.comparisons
         self._negation = language.denials.negation
         self._towards = language.persons.towards
@@ -33,22 +41,38 @@ class Comparisons:
             words: Of the sentence.
             said: A translation of it.
         """
-        return self._with_less_liked(words, self._with_compared(words, said))
+        return self._with_less_liked(words, self._with_now(words, self._with_compared(words, said)))
+
+    def _with_now(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """The same with "now" behind the time it is compared with: "hay más gente que ayer"."""
+        for than in range(1, len(words) - 1):
+            behind = clause_end(words, than + 1)
+            time = [at for at in range(than + 1, behind) if self._topics.is_time(words[at])]
+            present = any(_PRESENT.fullmatch(word.tag) for word in words[:than])
+            told = any(self._topics.is_time(word) for word in words[:than])
+            compares = any(word.form in self._said.degrees for word in words[max(0, than - _NEAR) : than])
+            if words[than].form != self._said.than or not compares or not time or told or not present:
+                continue
+            own = [at for at, gloss in enumerate(said.glosses) if min(gloss.sources, default=-1) > than]
+            if own and own == list(range(len(own))) and said.glosses[len(own)].gloss != self._said.now:
+                return said.with_glosses(len(own), read_gloss(self._said.now, than))
+        return said
 
     def _with_compared(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """The same with what is compared named twice: "que el nuestro", "que las de ayer"."""
         for than in range(1, len(words) - 2):
             article, other = words[than + 1].tag, words[than + 2]
-            belongs = other.form == self._said.of or other.tag.startswith(_POSSESSIVES)
+            before = other.readings[0].lemma in self._said.before
+            belongs = before or other.form == self._said.of or other.tag.startswith(_POSSESSIVES)
             compares = words[than].form == self._said.than and article.startswith("DET:def") and belongs
             if not compares or any(gloss.sources == (than,) for gloss in said.glosses):
                 continue
             noun = next((at for at in range(than) if words[at].tag.startswith("N:")), -1)
-            own = (each.gloss for each in said.glosses if each.copied and noun in each.sources)
+            own = (each.gloss for each in said.glosses if noun in each.sources and _names(words[noun], each))
             behind = (at for at, each in enumerate(said.glosses) if min(each.sources, default=0) > than)
             name, place = next(own, ""), next(behind, -1)
             if name and place >= 0:
-                return said.with_glosses(place, read_gloss(name, than + 1))
+                return said.with_glosses(place + before, read_gloss(name, than + 1))
         return said
 
     def _with_less_liked(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
@@ -73,3 +97,8 @@ class Comparisons:
         to = next(behind, 0)
         between = [word.tag for word in words[liking + 2 : to]]
         return to if to and all(tag.startswith(("N:", "A:")) for tag in between) else 0
+
+
+def _names(noun: SourceWord, gloss: OutputGloss) -> bool:
+    """Whether a gloss is that of a noun."""
+    return gloss.copied or gloss.gloss == copied_gloss(noun.readings[0])

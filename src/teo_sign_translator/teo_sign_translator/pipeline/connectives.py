@@ -98,8 +98,11 @@ class Connectives:
         return replace(said, glosses=glosses)
 
     def _is_wrong(self, words: Sequence[SourceWord], gloss: OutputGloss) -> bool:
-        if gloss.gloss == self._said.what:
-            return any(self._joins(words, at) or self._compares(words, at) for at in gloss.sources)
+        if gloss.gloss in self._said.asked:
+            asks = words[-1].form == "?" or any(word.tag.startswith("WH") for word in words)
+            return not (gloss.sources or asks) or any(
+                self._joins(words, at) or self._compares(words, at) for at in gloss.sources
+            )
         is_reason = gloss.gloss in self._said.reasons
         if not is_reason and gloss.gloss != self._said.above:
             return False

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 from teo_sign_translator.pipeline.completeness import CompleteTranslation, read_gloss
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
@@ -32,7 +33,8 @@ class Denials:
             words: Of the sentence.
             said: A translation of it.
         """
-        said = self._with_opposite(words, self._with_one_denial(words, said))
+        said = self._with_more(words, self._with_one_denial(words, said))
+        said = self._with_opposite(words, said)
         return self._with_exception(words, said)
 
     def _with_exception(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
@@ -64,6 +66,22 @@ class Denials:
         glosses = list(said.glosses)
         glosses[again[0]] = replace(negative, sources=tuple(sorted({*negative.sources, *no})))
         return replace(said, glosses=tuple(glosses)).without(denied)
+
+    def _with_more(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """The same without "not only", where something else follows: "no solo canta, también baila"."""
+        for place, (word, only) in enumerate(pairwise(words)):
+            follows = any(each.form in self._said.too for each in words[place + 2 :])
+            if word.form != self._said.denying or only.form not in self._said.only or not follows:
+                continue
+            own = {place, place + 1}
+            return said.without(
+                [
+                    at
+                    for at, gloss in enumerate(said.glosses)
+                    if {*gloss.sources} <= own or gloss.gloss == self._said.but
+                ]
+            )
+        return said
 
     def _with_opposite(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """The same with "not" behind what is denied alone: "no quiero café, sino té" is CAFÉ NO TÉ QUERER."""

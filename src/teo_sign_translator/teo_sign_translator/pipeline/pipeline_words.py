@@ -76,6 +76,7 @@ class SubjectWords:
         impersonal: Verbs whose third person may be nobody.
         believing: Verbs of what is held true, which may be about oneself in the subjunctive, too.
         wanting: Verbs of what one wants somebody to do.
+        calling: Verbs of what somebody is called.
         asking: Verbs that ask whom they are said to for something.
         able: Verb of what one can do.
         deeds: Verbs of what people do to each other.
@@ -92,6 +93,7 @@ class SubjectWords:
     impersonal: frozenset[str]
     believing: frozenset[str]
     wanting: frozenset[str]
+    calling: frozenset[str]
     asking: frozenset[str]
     able: str
     deeds: frozenset[str]
@@ -109,7 +111,7 @@ class ConnectiveWords:
         above: Gloss of the place above.
         about: Verbs and nouns that are about something.
         that: Word that joins, compares and asks.
-        what: Gloss that asks.
+        asked: Glosses that ask, which a word that joins or compares is taken for.
         companions: Glosses of prepositions before a person, and of those that are one word with it.
         little: Word that means "almost" between the preposition of reasons and a verb.
         almost: Gloss of that.
@@ -121,7 +123,7 @@ class ConnectiveWords:
     above: str
     about: frozenset[str]
     that: str
-    what: str
+    asked: frozenset[str]
     companions: dict[str, str]
     little: str
     almost: str
@@ -135,11 +137,17 @@ class ComparisonWords:
         than: Word before the second of what is compared.
         of: Word of what something belongs to.
         preferring: Verbs of liking more.
+        degrees: Words that compare.
+        now: Gloss of the time that another one is compared with.
+        before: Dictionary forms of what stands for a time or thing before this one: "que el pasado".
     """
 
     than: str
     of: str
     preferring: frozenset[str]
+    degrees: frozenset[str]
+    now: str
+    before: frozenset[str]
 
 
 @dataclass(frozen=True)
@@ -150,6 +158,8 @@ class DenialWords:
         denying: Word that denies.
         negation: Its gloss.
         negatives: Glosses that deny and say more.
+        only: Forms of "only", which denied means "too".
+        too: Words of "too", behind what is denied so.
         rather: Word of "but" behind what is denied.
         but: Its gloss.
         all: Dictionary forms of those of whom one is left out.
@@ -159,6 +169,8 @@ class DenialWords:
     denying: str
     negation: str
     negatives: frozenset[str]
+    only: frozenset[str]
+    too: frozenset[str]
     rather: str
     but: str
     all: frozenset[str]

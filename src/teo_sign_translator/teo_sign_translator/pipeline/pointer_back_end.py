@@ -27,6 +27,7 @@ from teo_sign_translator.pipeline.connectives import Connectives
 from teo_sign_translator.pipeline.counts import Counts
 from teo_sign_translator.pipeline.denials import Denials
 from teo_sign_translator.pipeline.doers import Doers
+from teo_sign_translator.pipeline.naming import Naming
 from teo_sign_translator.pipeline.objects import Objects
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pipeline.reliability import features, reliability
@@ -119,9 +120,10 @@ class PointerBackEnd:
         self._topics = Topics(morphology.folder)
         language = PipelineWords.load(morphology.folder)
         self._meaning = (
+            Naming(morphology.folder),
             Connectives(morphology.folder),
             Counts(language),
-            Comparisons(language),
+            Comparisons(language, self._topics),
             Denials(language),
             Subjects(language, self._topics),
             Wishes(language, self._topics),

@@ -48,6 +48,13 @@ class Topics:
             for reading in word.readings
         )
 
+    def is_time(self, word: SourceWord) -> bool:
+        """Whether a word says when: "ayer", "el lunes"."""
+        reading = word.readings[0]
+        return reading.tag.startswith("ADV:time") or (
+            reading.tag.startswith("N:") and reading.lemma in self._times
+        )
+
     def may_act(self, words: Sequence[SourceWord], place: int) -> bool:
         """Whether a noun may be who does it: "el colegio", but neither "el lunes" nor "en el colegio"."""
         reading = words[place].readings[0]
