@@ -17,6 +17,8 @@ _FINITE = ("V:ind", "V:sub", "V:cond", "V:imp")
 _MASCULINE = re.compile("[NA]:[mc][sn]|V:part:ms")
 # Forms of a verb that tell its person, as not every language's do.
 _PERSONAL = re.compile(f"(?:{'|'.join(_FINITE)}).*:[123][sp]")
+# What may stand between what opens a clause and its verb.
+_BEFORE_VERBS = ("ADV:neg", *CLITICS)
 # Pronouns that are subjects alone; question words, and articles that are pronouns too or stand before them:
 # not el and un, which stand before feminine nouns too.
 _SUBJECTS = ("PRON:1s", "PRON:2s")
@@ -32,8 +34,14 @@ def told_by_neighbours(words: list[SourceWord], morphology: Morphology) -> list[
             written = None
         if place == 0 and following.tag.startswith(("ADV:neg", *CLITICS, *_FINITE)):
             written = told.opening.get(word.form, written)
+        if word.form in told.conditional and (place == 0 or words[place - 1].is_mark):
+            verb = next((each for each in words[place + 1 :] if not each.tag.startswith(_BEFORE_VERBS)), word)
+            supposed = {each.lemma for each in verb.readings if each.exact and each.tag.startswith("V:sub")}
+            written = told.conditional[word.form] if supposed - told.not_conditional else written
         if following.tag.startswith("V:inf"):
             written = told.infinitive.get(word.form, written)
+        if following.is_mark:
+            written = told.misspelled.get(word.form, written)
         if written:
             word = words[place] = replace(word, form=written, readings=morphology.readings(written))
         if following.form not in told.amounts:
@@ -46,6 +54,9 @@ def told_by_neighbours(words: list[SourceWord], morphology: Morphology) -> list[
         words[place] = _counting(words[place : place + 4], morphology)
     if len(words) > 1 and words[1].is_mark:
         words[0] = replace(words[0], readings=_as_order(words[0].readings))
+    if len(words) > 1 and words[-1].form in told.misspelled:
+        written = told.misspelled[words[-1].form]
+        words[-1] = replace(words[-1], form=written, readings=morphology.readings(written))
     behind_copula = False
     before = ""
     for place, word in enumerate(words):
@@ -88,6 +99,8 @@ def _behind(words: Sequence[SourceWord], place: int, morphology: Morphology) -> 
     ):
         return verbs if any(each.exact for each in verbs) else word.readings
     tags = [each.tag for each in before.readings if each.exact]
+    if tags == ["ADV:neg"] and any(each.exact for each in verbs):  # "no vino", but "no solo"
+        return tuple(each for each in word.readings if not each.tag.startswith("N:"))
     if _governs(before):
         opens = place == 1 or words[place - 2].is_mark
         orders = opens and _may_order(before, morphology) and _may_order(word, morphology)

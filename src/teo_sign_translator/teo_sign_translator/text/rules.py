@@ -216,6 +216,9 @@ class Neighbours:
         perfect: What is typed for a form of the perfect's verb, in haste, and that form ("me a dicho": ha).
         infinitive: What is typed for a form that an infinitive may follow, and that form ("se ir solo": sé).
         opening: What means something else before the first verb, and that word ("igual viene": quizás).
+        conditional: Word that is another before a subjunctive that opens a sentence ("como no comas": si).
+        not_conditional: Dictionary forms before which it is not ("como quieras").
+        misspelled: Verbs typed without an accent where nothing follows that they could go with ("dónde estas").
         motion: Lemmas of verbs whose form is no noun before what one comes to do ("vino a cenar").
         amounts: Forms that are no verb before others, and these ("nada más", "nada de").
     """
@@ -227,6 +230,9 @@ class Neighbours:
     perfect: dict[str, str]
     infinitive: dict[str, str]
     opening: dict[str, str]
+    conditional: dict[str, str]
+    not_conditional: frozenset[str]
+    misspelled: dict[str, str]
     motion: frozenset[str]
     amounts: dict[str, str]
 
