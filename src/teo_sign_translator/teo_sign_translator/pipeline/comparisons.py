@@ -91,12 +91,23 @@ class Comparisons:
         than = next((at for at, word in enumerate(words) if word.form == self._said.than), 0)
         if than > liking + 1:
             return than
-        if than or liking + 2 >= len(words) or not words[liking + 1].tag.startswith("DET"):
+        if than or liking + 2 >= len(words):
+            return 0
+        if words[liking + 1].tag.startswith("V:inf"):  # "quedarme en casa a salir", but "ir a casa a comer"
+            behind = range(liking + 3, len(words) - 1)
+            to = next((at for at in behind if words[at].form in self._towards and _does(words[at + 1])), 0)
+            goes = words[liking + 1].readings[0].lemma in self._said.going
+            return to if not goes or words[to - 1].tag.startswith("V:ger") else 0
+        if not words[liking + 1].tag.startswith("DET"):
             return 0
         behind = (at for at in range(liking + 2, len(words)) if words[at].form in self._towards)
         to = next(behind, 0)
         between = [word.tag for word in words[liking + 2 : to]]
         return to if to and all(tag.startswith(("N:", "A:")) for tag in between) else 0
+
+
+def _does(word: SourceWord) -> bool:
+    return word.tag.startswith("V:inf")
 
 
 def _names(noun: SourceWord, gloss: OutputGloss) -> bool:

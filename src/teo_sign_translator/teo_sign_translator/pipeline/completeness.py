@@ -81,6 +81,12 @@ def read_gloss(name: str, place: int) -> OutputGloss:
     return OutputGloss(name, (place,), _READ_CONFIDENCE, copied=False)
 
 
+def own_places(words: Sequence[SourceWord], gloss: OutputGloss) -> set[int]:
+    """Of the words that a gloss stands for those whose dictionary form it is; all if none is."""
+    forms = {at for at in gloss.sources for each in words[at].readings if copied_gloss(each) == gloss.gloss}
+    return forms or {*gloss.sources}
+
+
 class FunctionWords:
     """Tells function words from words with a meaning of their own."""
 

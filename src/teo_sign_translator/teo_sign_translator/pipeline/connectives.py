@@ -19,6 +19,7 @@ from teo_sign_translator.morphology.lexicon import nouns
 from teo_sign_translator.pipeline.completeness import CompleteTranslation, read_gloss
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pointer import OutputGloss
+from teo_sign_translator.pointer.vocabulary import copied_gloss
 from teo_sign_translator.text.source_word import CLITICS, COMPANIONS, SourceWord
 
 #: Classes of nouns through which, by which or at which something is done.
@@ -48,6 +49,7 @@ class Connectives:
         """
         language = PipelineWords.load(folder)
         self._said, self._preferring = language.connectives, language.comparisons.preferring
+        self._goes, self._goes_to = language.completeness.goes, language.completeness.goes_to
         self._classes = {noun.lemma: frozenset(noun.classes) for noun in nouns(folder)}
 
     def read(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
@@ -57,7 +59,7 @@ class Connectives:
             words: Of the sentence.
             said: A translation of it.
         """
-        said = self._with_almost(words, said)
+        said = self._without_going(words, self._with_almost(words, said))
         wrong = [place for place, gloss in enumerate(said.glosses) if self._is_wrong(words, gloss)]
         said = said.without(wrong)
         for place, word in enumerate(words):
@@ -96,6 +98,25 @@ class Connectives:
             for gloss in said.glosses
         )
         return replace(said, glosses=glosses)
+
+    def _without_going(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """The same without a verb that says only what was to come, "iba a llamarte", and goes nowhere."""
+        going = [
+            at
+            for at in range(len(words) - 2)
+            if words[at].readings[0].lemma == self._goes
+            and words[at].tag.startswith("V:ind:impf")
+            and words[at + 1].form == self._goes_to
+            and words[at + 2].tag.startswith("V:inf")
+        ]
+        named = [copied_gloss(words[at].readings[0]) for at in going]
+        return said.without(
+            [
+                at
+                for at, gloss in enumerate(said.glosses)
+                if gloss.gloss in named and {*going} & {*gloss.sources}
+            ]
+        )
 
     def _is_wrong(self, words: Sequence[SourceWord], gloss: OutputGloss) -> bool:
         if gloss.gloss in self._said.asked:

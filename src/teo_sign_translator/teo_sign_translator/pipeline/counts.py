@@ -13,6 +13,9 @@ from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pointer.vocabulary import copied_gloss
 from teo_sign_translator.text.source_word import SourceWord
 
+#: Less than that is rather somebody than an age: "se lo di a los dos".
+_LEAST_AGE = 5
+
 
 class Counts:
     """Reads how many a language says."""
@@ -28,7 +31,43 @@ class Counts:
             words: Of the sentence.
             said: A translation of it.
         """
-        return self._with_how_many(words, self._with_one(words, self._with_span(words, said)))
+        said = self._with_one(words, self._with_span(words, said))
+        said = self._with_until(words, self._with_age(words, said))
+        return self._with_how_many(words, self._with_past(words, said))
+
+    def _with_until(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """The same with "until" before what is asked: "¿hasta qué hora abrís?"."""
+        for place, (word, asks) in enumerate(pairwise(words)):
+            behind = {place + 1, place + 2}
+            at = next((at for at, each in enumerate(said.glosses) if behind & {*each.sources}), -1)
+            until = any(gloss.gloss == self._said.until for gloss in said.glosses)
+            if copied_gloss(word.readings[0]) == self._said.until and asks.tag.startswith("WH") and not until:
+                return said.with_glosses(at, read_gloss(self._said.until, place)) if at >= 0 else said
+        return said
+
+    def _with_age(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """The same with "age" before a number of nothing: "se quedó viuda a los treinta"."""
+        for place in range(2, len(words)):
+            number = words[place].form
+            before = (words[place - 2].form, words[place - 1].form)
+            counted = place + 1 < len(words) and words[place + 1].tag.startswith(("N:", "A:"))
+            if before != self._said.at_age or counted or not number.isdigit() or int(number) < _LEAST_AGE:
+                continue
+            at = next((at for at, gloss in enumerate(said.glosses) if gloss.gloss == number), -1)
+            if at >= 0 and not any(gloss.gloss == self._said.age for gloss in said.glosses):
+                return said.with_glosses(at, read_gloss(self._said.age, place - 1))
+        return said
+
+    def _with_past(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """The same with "past" before how long ago it was: "hace dos años que murió", no "que no fumo"."""
+        joiner = next((at for at in range(3, len(words)) if words[at].form == self._said.that), 0)
+        verb = next((word.tag for word in words[joiner:] if word.tag.startswith("V:")), "")
+        ago = joiner > 0 and words[joiner - 3].form == self._said.ago and words[joiner - 2].tag == "NUM"
+        told = any(gloss.gloss == self._said.past for gloss in said.glosses)
+        at = next((at for at, gloss in enumerate(said.glosses) if joiner - 2 in gloss.sources), -1)
+        if not ago or told or at < 0 or not verb.startswith("V:ind:pret"):
+            return said
+        return said.with_glosses(at, read_gloss(self._said.past, joiner - 3))
 
     def _with_how_many(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """The same with "how many" where nobody marvels: "pregunté cuánto costaba"."""

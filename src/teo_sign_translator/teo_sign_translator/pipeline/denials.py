@@ -8,10 +8,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-from teo_sign_translator.pipeline.completeness import CompleteTranslation, read_gloss
+from teo_sign_translator.pipeline.completeness import CompleteTranslation, own_places, read_gloss
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
-from teo_sign_translator.pointer import OutputGloss
-from teo_sign_translator.pointer.vocabulary import copied_gloss
 from teo_sign_translator.text.source_word import SourceWord
 
 #: What begins the name of who is left out, and what is done by all.
@@ -45,7 +43,7 @@ class Denials:
                 continue
             behind = range(place + 1, len(words))
             stop = next((at for at in behind if words[at].tag.startswith(_FINITE) or words[at].is_mark), -1)
-            left = [_own(words, gloss) for gloss in said.glosses]
+            left = [own_places(words, gloss) for gloss in said.glosses]
             out = [at for at, own in enumerate(left) if own and own <= {*range(place + 1, stop)}]
             lead = [at for at, own in enumerate(left) if at not in out and own != {place}]
             negatives = {self._said.negation, *self._said.negatives}
@@ -73,12 +71,12 @@ class Denials:
             follows = any(each.form in self._said.too for each in words[place + 2 :])
             if word.form != self._said.denying or only.form not in self._said.only or not follows:
                 continue
-            own = {place, place + 1}
+            said_by = [own_places(words, gloss) for gloss in said.glosses]
             return said.without(
                 [
                     at
-                    for at, gloss in enumerate(said.glosses)
-                    if {*gloss.sources} <= own or gloss.gloss == self._said.but
+                    for at, own in enumerate(said_by)
+                    if own <= {place, place + 1} or said.glosses[at].gloss == self._said.but
                 ]
             )
         return said
@@ -95,9 +93,3 @@ class Denials:
         sources = {*kept.glosses[denied[-1]].sources, rather}
         negation = replace(kept.glosses[denied[-1]], sources=tuple(sorted(sources)))
         return kept.without(denied[-1:]).with_glosses(min(denied[-1], opposite), negation)
-
-
-def _own(words: Sequence[SourceWord], gloss: OutputGloss) -> set[int]:
-    """Of the words that a gloss stands for those whose dictionary form it is; all if none is."""
-    form = {at for at in gloss.sources if copied_gloss(words[at].readings[0]) == gloss.gloss}
-    return form or {*gloss.sources}

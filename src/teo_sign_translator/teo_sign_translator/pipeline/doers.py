@@ -31,6 +31,10 @@ _NEXT = re.compile(r"V:ind:(?!impf).*:(3[sp])")
 _THIRD = f"{OBJECT}3"
 _JOINING = ("MARK", "CONJ")
 _NAMES = ("N:", "NAME")
+_PLACE = "NAME:place"
+#: Of what the addressee is asked to do, or not to do.
+_ORDER = "V:imp:2s"
+_DENIED_ORDER = "V:sub:pres:2s"
 
 
 class Doers:
@@ -40,6 +44,7 @@ class Doers:
         """Take how a language points at persons, and who may do things."""
         self._pointing = language.subjects.pointing
         self._who = self._pointing.get("3s", "")
+        self._asked = self._pointing.get("2s", "")
         self._persons = {*self._pointing.values(), *topics.subjects}
         self._deeds = language.subjects.deeds
         self._done_by_nobody = (
@@ -59,21 +64,52 @@ class Doers:
             words: Of the sentence.
             said: A translation of it.
         """
-        return self._with_next(words, self._with_first(words, said))
+        return self._with_next(words, self._with_asked(words, self._with_first(words, said)))
+
+    def _with_asked(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """The same with who is asked before whom he should do it to: "dile a Ana que venga"."""
+        for verb, word in enumerate(words):
+            denied = verb > 0 and words[verb - 1].tag.startswith(("ADV:neg", *CLITICS))
+            asks = word.tag == _ORDER or (word.tag.startswith(_DENIED_ORDER) and denied)
+            opened = any(each.tag.startswith(OPENING) for each in words[:verb])
+            if not asks or (opened and not _is_after_mark(words, verb)):
+                continue
+            stop = clause_end(words, verb + 1)
+            others = {at for at in range(verb + 1, stop) if self._is_asked_for(words, at, verb)}
+            asked = read_gloss(self._asked, verb)
+            own = [at for at, gloss in enumerate(said.glosses) if gloss.gloss == asked.gloss]
+            named = (
+                at for at, gloss in enumerate(said.glosses) if others & {*gloss.sources} and at not in own
+            )
+            place = next(named, -1)
+            before = any(at < place for at in own)
+            behind = [at for at in own if at > place and verb in said.glosses[at].sources]
+            if place >= 0 and asked.gloss and not before:
+                return said.without(behind).with_glosses(place, asked)
+        return said
+
+    def _is_asked_for(self, words: Sequence[SourceWord], place: int, verb: int) -> bool:
+        """Whether a word names somebody to whom what is asked for should be done."""
+        word = words[place]
+        named = word.tag.startswith(_NAMES) and word.tag != _PLACE and self._topics.may_do(word)
+        prepositions = (each.form for each in reversed(words[verb:place]) if each.tag.startswith("PREP"))
+        return named and next(prepositions, "") in self._towards
 
     def _with_next(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """The same with whom something is done to, where he does the next thing: "la llamé y no contestó"."""
-        start = 0
+        start, whom = 0, -1
         for opening, word in enumerate(words[:-1]):
             if not word.tag.startswith(_JOINING):
                 continue
-            whom, start = self._done_to(words, start, opening), opening + 1
+            if opening > start:  # else a comma and a conjunction part the same two clauses
+                whom = self._done_to(words, start, opening)
+            start = opening + 1
             verb = next((at for at in range(start, len(words)) if words[at].tag.startswith(_FINITE)), -1)
             stop = clause_end(words, start)
             person = _NEXT.fullmatch(words[verb].tag) if start <= verb < stop else None
             if person is None or whom < 0:
                 continue
-            named = any(self._may_do_it(words, at, stop) for at in range(start, stop))
+            named = any(self._may_do_it(words, at, verb) for at in range(start, stop))
             by_nobody = words[verb].readings[0].lemma in self._done_by_nobody
             own = [at for at, gloss in enumerate(said.glosses) if min(gloss.sources, default=-1) >= start]
             before = (gloss.gloss for gloss in said.glosses if gloss.sources == (whom,))
@@ -148,3 +184,9 @@ class Doers:
         if preposition in self._beside:
             return happens[-1].readings[0].lemma not in self._done_by_nobody
         return preposition in self._towards and not done.isdisjoint(self._deeds)
+
+
+def _is_after_mark(words: Sequence[SourceWord], verb: int) -> bool:
+    """Whether a verb opens what stands behind a mark, but for what denies and its pronouns."""
+    before = (word for word in reversed(words[:verb]) if not word.tag.startswith(("ADV:neg", *CLITICS)))
+    return next((word.is_mark for word in before), True)

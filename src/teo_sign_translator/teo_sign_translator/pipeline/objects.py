@@ -13,7 +13,8 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from teo_sign_translator.pipeline.completeness import CompleteTranslation, read_gloss
+from teo_sign_translator.morphology import Reading
+from teo_sign_translator.pipeline.completeness import CompleteTranslation, own_places, read_gloss
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pipeline.topic import Topics
 from teo_sign_translator.text.source_word import CLITICS, OBJECT, OPENING, SourceWord, clause_end
@@ -55,6 +56,7 @@ class Objects:
         self._pointing = language.subjects.pointing
         self._towards, self._things = language.persons.towards, language.persons.things
         self._names = frozenset(self._pointing.values())
+        self._polite = next((gloss for gloss in topics.subjects if gloss in topics.polite), "")
         self._experiencer_verbs = language.persons.experiencer_verbs
         self._topics = topics
 
@@ -90,22 +92,27 @@ class Objects:
         self, words: Sequence[SourceWord], said: CompleteTranslation
     ) -> CompleteTranslation:
         """The same with who does it before whom it is done to: "al perro lo persigue el gato"."""
-        clitics = (at for at, word in enumerate(words) if word.form in self._things and _behind(words, at))
-        clitic = next(clitics, 0)
-        if clitic == 0 or words[0].form not in self._towards:
+        thirds = (at for at, word in enumerate(words) if any(_says_third(each) for each in word.readings))
+        clitic = next((at for at in thirds if _behind(words, at)), 0)
+        verbs = _behind(words, clitic) if clitic else ()
+        asked = any(word.tag.startswith("WH") for word in words[:clitic])
+        if not verbs or asked or words[0].form not in self._towards or not _says(words[verbs[0]], _THIRD):
             return said
-        start = _behind(words, clitic)[-1] + 1
-        stop = clause_end(words, start, ("PREP", *OPENING))
-        actor = words[start:stop]
-        if not any(self._topics.may_do(word) and word.tag.startswith(_NOUNS) for word in actor):
+        start = verbs[-1] + 1
+        deed = words[start - 1].readings[0].lemma in self._who.deeds or words[clitic].form in self._things
+        actor = range(start, clause_end(words, start, ("PREP", "V:", *OPENING)))
+        if not deed or not any(
+            self._topics.may_do(words[at]) and words[at].tag.startswith(_NOUNS) for at in actor
+        ):
             return said
-        own = [{*gloss.sources} for gloss in said.glosses]
-        first = [at for at, sources in enumerate(own) if sources and sources <= {*range(clitic)}]
-        then = [at for at, sources in enumerate(own) if sources and sources <= {*range(start, stop)}]
-        both = [*first, *then]
-        if not first or not then or both != list(range(both[0], both[-1] + 1)):
+        own = [own_places(words, gloss) for gloss in said.glosses]
+        first = [at for at, places in enumerate(own) if places and places <= {*range(clitic)}]
+        then = [at for at, places in enumerate(own) if places and places <= {*actor}]
+        if not first or not then:
             return said
-        return said.in_order([*range(first[0]), *then, *first, *range(then[-1] + 1, len(own))])
+        rest = [at for at in range(len(own)) if at not in (*first, *then)]
+        place = sum(at < min(*first, *then) for at in rest)
+        return said.in_order([*rest[:place], *then, *first, *rest[place:]])
 
     def _deeds(self, words: Sequence[SourceWord]) -> Iterator[_Deed]:
         """What is done to the signer or the addressee: a pronoun before its verb, or at its end."""
@@ -142,13 +149,20 @@ class Objects:
         """The same with who is not named and whom he does it to: "ayer me llamó", never AYER YO LLAMAR."""
         own, verbs = self._said(said, deed)
         pointed = [said.glosses[at].gloss for at in own]
-        who = read_gloss(self._pointing[deed.who], deed.verbs[0])
+        asked = words[-1].form == "?" and deed.who == "3s" and deed.to_whom.startswith("1") and bool(own)
+        name = self._polite if asked else self._pointing[deed.who]
+        who = read_gloss(name, deed.verbs[0])
         to_whom = read_gloss(self._pointing[deed.to_whom], deed.clitic)
         if who.gloss in pointed or not self._is_deed(words, deed) or self._is_named(words, deed):
             return said
-        if to_whom.gloss not in pointed:
+        if words[-1].form == "?" and not asked:
+            return said
+        start = _clause_start(words, deed.clitic)
+        first = [min(gloss.sources, default=start) for gloss in said.glosses]
+        in_clause = [at for at in own if all(each >= start for each in first[at : verbs[0]])]
+        if to_whom.gloss not in pointed or not in_clause:
             return said.with_glosses(verbs[0], who, to_whom)
-        return said.with_glosses(min(own[0], verbs[0]), who)
+        return said.with_glosses(min(in_clause[0], verbs[0]), who)
 
     def _with_whom(
         self, words: Sequence[SourceWord], said: CompleteTranslation, deed: _Deed
@@ -185,14 +199,15 @@ class Objects:
         if not _SAYS_WHO.fullmatch(finite.tag) or finite.lemma in self._experiencer_verbs:
             return False
         done = {reading.lemma for reading in words[deed.verbs[-1]].readings if reading.tag.startswith("V:")}
-        return not done.isdisjoint(self._who.deeds) and words[-1].form != "?"
+        return not done.isdisjoint(self._who.deeds)
 
     def _is_named(self, words: Sequence[SourceWord], deed: _Deed) -> bool:
         """Whether the clause names who does it, is another's that does, or says that nobody does it."""
-        before = range(deed.clitic, 0, -1)
-        start = next((at for at in before if words[at - 1].tag.startswith(OPENING)), 0)
+        start = _clause_start(words, deed.clitic)
         stop = clause_end(words, deed.verbs[-1] + 1)
-        joined = start > 0 and words[start - 1].form == self._who.joiner
+        joined = start > 0 and (
+            words[start - 1].form == self._who.joiner or words[start - 1].tag.startswith(("WH", "PRON:rel"))
+        )
         pronouns = words[max(0, deed.clitic - 1) : deed.verbs[0]]
         happens = any(word.tag.startswith("PRON:refl") for word in pronouns)  # se me olvidó
         return joined or happens or any(self._may_be(words, at, deed) for at in range(start, stop))
@@ -206,11 +221,27 @@ class Objects:
         return names or word.tag.startswith(("PRON:", "WH"))
 
 
+def _clause_start(words: Sequence[SourceWord], place: int) -> int:
+    """Where the clause begins that a word stands in."""
+    return next((at for at in range(place, 0, -1) if words[at - 1].tag.startswith(OPENING)), 0)
+
+
+def _says(word: SourceWord, person: str) -> bool:
+    """Whether a verb's form is of a person."""
+    return word.tag.rsplit(":", 1)[-1].startswith(person)
+
+
+def _says_third(reading: Reading) -> bool:
+    """Whether a pronoun stands for a third person, to whom or which something is done."""
+    return reading.tag.startswith(f"{OBJECT}{_THIRD}")
+
+
 def _behind(words: Sequence[SourceWord], clitic: int) -> tuple[int, ...]:
     """Places of the verb behind a pronoun and of those that it governs: "me van a operar"; or none."""
     following = (at for at in range(clitic + 1, len(words)) if not words[at].tag.startswith(CLITICS))
     finite = next(following, -1)
-    if not words[clitic].tag.startswith(OBJECT) or finite < 0 or not words[finite].tag.startswith(_FINITE):
+    is_pronoun = any(each.tag.startswith(OBJECT) for each in words[clitic].readings)
+    if not is_pronoun or finite < 0 or not words[finite].tag.startswith(_FINITE):
         return ()
     places = [finite]
     for place in range(finite + 1, len(words)):

@@ -137,6 +137,7 @@ class ComparisonWords:
         than: Word before the second of what is compared.
         of: Word of what something belongs to.
         preferring: Verbs of liking more.
+        going: Verbs of going somewhere to do something.
         degrees: Words that compare.
         now: Gloss of the time that another one is compared with.
         before: Dictionary forms of what stands for a time or thing before this one: "que el pasado".
@@ -145,6 +146,7 @@ class ComparisonWords:
     than: str
     of: str
     preferring: frozenset[str]
+    going: frozenset[str]
     degrees: frozenset[str]
     now: str
     before: frozenset[str]
@@ -190,6 +192,11 @@ class CountWords:
         is_verb: Verb behind which an article never counts: "solo era un susto".
         span: The two words of a span of numbers: from, to.
         until: Gloss between these.
+        at_age: The two words before an age.
+        age: Its gloss.
+        that: Word behind how long ago it was.
+        ago: Word before it.
+        past: Gloss of what is over.
     """
 
     how_many: str
@@ -200,6 +207,11 @@ class CountWords:
     is_verb: str
     span: tuple[str, ...]
     until: str
+    at_age: tuple[str, ...]
+    age: str
+    that: str
+    ago: str
+    past: str
 
 
 @dataclass(frozen=True)

@@ -31,6 +31,8 @@ _SUBJUNCTIVE = re.compile(r"V:sub:.*:3s")
 _AMBIGUOUS = re.compile(r"V:(sub|cond|ind:impf)\b.*:3s")
 _SIGNERS = re.compile(r"(V|PRON)\b.*:1s")
 _THIRD = re.compile(r"V:ind:(?!impf).*:3s")
+#: Of what opens a clause in which nobody is asked for something, as in "llama a Ana".
+_SUBORDINATING = ("WH", "PRON:rel")
 _ASKING = re.compile(r"V:imp:2.*")
 #: What may stand between a mark and a verb that asks for something.
 _BEFORE_COMMANDS = ("ADV:neg", *CLITICS)
@@ -44,6 +46,7 @@ class Subjects:
         """Take how a language joins clauses and points at persons, and who may do things."""
         self._who = language.subjects
         self._signer = language.subjects.pointing.get("1s", "")
+        self._addressee = language.subjects.pointing.get("2s", "")
         self._other = language.subjects.pointing.get("3s", "")
         self._experiencer_verbs = language.persons.experiencer_verbs
         self._of_nobody = language.completeness.of_things | language.subjects.impersonal
@@ -77,6 +80,9 @@ class Subjects:
         asked = all(_says(words[place].readings[:1], _ASKING) for place in gloss.sources)
         if gloss.gloss == self._signer and gloss.sources and asked and not self._is_addressed(gloss, every):
             return  # "mándame": the sign's direction says to whom, and the signer does nothing
+        if self._is_another(words, gloss):
+            yield replace(gloss, gloss=self._other)
+            return
         verb = self._verb(words, gloss)
         if verb < 0 or gloss.gloss not in (self._signer, self._other):
             yield gloss
@@ -98,6 +104,15 @@ class Subjects:
             return
         elif not self._is_named(words, gloss.sources, verb):
             yield gloss
+
+    def _is_another(self, words: Sequence[SourceWord], gloss: OutputGloss) -> bool:
+        """Whether a gloss points at the addressee for a verb of a third person: "a qué hora viene"."""
+        verbs = [place for place in gloss.sources if not words[place].tag.startswith("DET")]
+        if gloss.gloss != self._addressee or not verbs:
+            return False
+        start, _ = between_marks(words, verbs[0])
+        asked = any(word.tag.startswith(_SUBORDINATING) for word in words[start : verbs[0]])
+        return asked and all(_THIRD.fullmatch(words[place].tag) for place in verbs)
 
     def _verb(self, words: Sequence[SourceWord], gloss: OutputGloss) -> int:
         """Place of the verb that a person does, if its form alone is "yo" and "él"; -1 if it says who."""

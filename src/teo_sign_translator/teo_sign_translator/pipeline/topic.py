@@ -34,9 +34,11 @@ class Topics:
         Raises:
             TranslationError: "invalid_data" naming file and field.
         """
-        persons = PipelineWords.load(folder).persons.subjects
+        persons = PipelineWords.load(folder).persons
         #: Pronouns' glosses with the person that a verb's ending says for each.
-        self.subjects = {gloss_name(word): person for word, person in persons.items()}
+        self.subjects = {gloss_name(word): person for word, person in persons.subjects.items()}
+        #: Those of an addressee of whom one speaks as of a third person.
+        self.polite = frozenset(map(gloss_name, persons.polite))
         self._doers = frozenset(noun.lemma for noun in nouns(folder) if not _DOERS.isdisjoint(noun.classes))
         self._times = frozenset(noun.lemma for noun in nouns(folder) if "time" in noun.classes)
 

@@ -71,6 +71,9 @@ def meant(rule: Objects | Wishes | Doers, sentence: str, model: str) -> str:
         ("Se nos acabó el pan.", "PAN/pan ACABAR/acabó", "PAN ACABAR"),
         # Who does it stands first, and others do what nobody is named for.
         ("Al perro lo persigue el gato.", "PERRO/perro GATO/gato PERSEGUIR/persigue", "GATO PERRO PERSEGUIR"),
+        ("A Ana la vio Pedro.", "ANA/ana PEDRO/pedro VER/vio", "PEDRO ANA VER"),
+        ("A mi hija le pega un niño.", "HIJA/hija NIÑO/niño MI/mi PEGAR/pega", "NIÑO HIJA MI PEGAR"),
+        ("A mi madre le gusta Pedro.", "MADRE/madre PEDRO/pedro GUSTAR/gusta", "MADRE PEDRO GUSTAR"),
         ("Al perro lo lavamos.", "PERRO/perro NOSOTROS/lavamos LAVAR/lavamos", "PERRO NOSOTROS LAVAR"),
         ("El gato persigue al perro.", "GATO/gato PERRO/perro PERSEGUIR/persigue", "GATO PERRO PERSEGUIR"),
         ("El médico al que operaron.", "MÉDICO/médico OPERAR/operaron", "MÉDICO ELLOS OPERAR"),
@@ -154,6 +157,11 @@ def test_who_wishes_something_is_not_taken_for_who_should_do_it(
         ("No se puede entrar con perros.", "PERRO/perros ENTRAR/entrar NO/no", "PERRO ENTRAR NO"),
         ("Le gusta a mi hermano.", "HERMANO/hermano GUSTAR/gusta", "HERMANO GUSTAR"),
         ("Fue al médico.", "MÉDICO/médico IR/fue", "MÉDICO IR"),
+        # Who is asked to do it to somebody.
+        ("Dile a Ana que venga.", "ANA/ana DECIR/dile VENIR/venga", "TÚ ANA DECIR VENIR"),
+        ("Dile a Ana que venga.", "ANA/ana TÚ/dile DECIR/dile VENIR/venga", "TÚ ANA DECIR VENIR"),
+        ("No se lo digas a papá.", "PAPÁ/papá DECIR/digas NO/no", "TÚ PAPÁ DECIR NO"),
+        ("Quiero que se lo digas a Ana.", "ANA/ana DECIR/digas QUERER/quiero", "ANA DECIR QUERER"),
         # Whom the signer does something to does the next thing.
         ("La llamé y no contestó.", "YO/llamé LLAMAR/llamé CONTESTAR/contestó", "YO LLAMAR ÉL CONTESTAR"),
         (
@@ -163,6 +171,11 @@ def test_who_wishes_something_is_not_taken_for_who_should_do_it(
         ),
         ("Los invité y vinieron.", "YO/invité INVITAR/invité VENIR/vinieron", "YO INVITAR ELLOS VENIR"),
         ("Le escribí y contestó Ana.", "YO/escribí ESCRIBIR/escribí ANA/ana", "YO ESCRIBIR ANA"),
+        (
+            "Lo llamé, pero no cogió el teléfono.",
+            "LLAMAR/llamé PERO/pero COGER/cogió",
+            "LLAMAR PERO ÉL COGER",
+        ),
         ("Lo lavé y me fui.", "YO/lavé LAVAR/lavé IR/fui", "YO LAVAR IR"),
     ],
 )
