@@ -65,7 +65,7 @@ def meant(rule: Objects | Wishes | Doers, sentence: str, model: str) -> str:
         ("La mujer que me llamó.", "MUJER/mujer YO/me LLAMAR/llamó", "MUJER YO LLAMAR"),
         # Whom it is done to, unless that is the signer.
         ("¿Quién te llamó?", "LLAMAR/llamó QUIÉN/quién", "TÚ LLAMAR QUIÉN"),
-        ("¿Cuándo os dan las notas?", "NOTA/notas DAR/dan CUÁNDO/cuándo", "NOTA VOSOTROS DAR CUÁNDO"),
+        ("¿Cuándo os dan el pan?", "PAN/pan DAR/dan CUÁNDO/cuándo", "PAN VOSOTROS DAR CUÁNDO"),
         ("¿Quién me llamó?", "LLAMAR/llamó QUIÉN/quién", "LLAMAR QUIÉN"),
         ("Dile a Ana que me llame.", "ANA/ana DECIR/dile LLAMAR/llame", "ANA DECIR YO LLAMAR"),
         ("Se nos acabó el pan.", "PAN/pan ACABAR/acabó", "PAN ACABAR"),

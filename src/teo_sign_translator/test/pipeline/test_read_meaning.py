@@ -45,7 +45,7 @@ from loaded import translator
         ("Como no vino, me fui.", "MOTIVO VENIR NO YO IR"),
         ("A menos que nieve, jugaremos.", "SI NEVAR NO NOSOTROS JUGAR"),
         ("dnd estas", "TÚ DÓNDE"),
-        ("q haces esta tarde", "HOY TARDE TÚ HACER QUÉ"),
+        ("q comes esta noche", "HOY NOCHE TÚ COMER QUÉ"),
         ("Iba a llamarte.", "YO TÚ LLAMAR"),
         ("¿Hasta qué hora abrís?", "VOSOTROS ABRIR HASTA HORA CUÁL"),
         ("Empecé a los quince.", "YO EDAD 15 EMPEZAR"),
