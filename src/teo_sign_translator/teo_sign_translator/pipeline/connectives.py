@@ -34,6 +34,8 @@ _AGENTS = frozenset({"person", "family", "profession", "animal", "group"})
 _SURFACES = frozenset({"furniture", "room"})
 #: What may stand between a preposition and its noun, and between what is spoken of and the preposition.
 _BETWEEN = ("DET", "A:", "NUM", "ADV", "PRON:obj")
+_FINITE = ("V:ind", "V:sub", "V:cond", "V:imp")
+_COMING = "V:ind:fut"
 #: What begins something that is done.
 _DONE = ("V:ind", "ADV:neg", *CLITICS)
 
@@ -59,7 +61,7 @@ class Connectives:
             words: Of the sentence.
             said: A translation of it.
         """
-        said = self._without_going(words, self._with_almost(words, said))
+        said = self._without_going(words, self._without_already(words, self._with_almost(words, said)))
         wrong = [place for place, gloss in enumerate(said.glosses) if self._is_wrong(words, gloss)]
         said = said.without(wrong)
         for place, word in enumerate(words):
@@ -117,6 +119,19 @@ class Connectives:
                 if gloss.gloss in named and {*going} & {*gloss.sources}
             ]
         )
+
+    def _without_already(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
+        """The same without "already" before what is still to come: "ya te enseñaré"."""
+        already = {
+            at
+            for at, word in enumerate(words)
+            if copied_gloss(word.readings[0]) == self._said.already
+            and next((each.tag for each in words[at:] if each.tag.startswith(_FINITE)), "").startswith(
+                _COMING
+            )
+        }
+        done = [at for at, gloss in enumerate(said.glosses) if gloss.gloss == self._said.already]
+        return said.without([at for at in done if already & {*said.glosses[at].sources}])
 
     def _is_wrong(self, words: Sequence[SourceWord], gloss: OutputGloss) -> bool:
         if gloss.gloss in self._said.asked:

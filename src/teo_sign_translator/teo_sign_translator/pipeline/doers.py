@@ -10,7 +10,7 @@ mark, and who is named would be taken to do it: MADRE SU LLAMAR is what she does
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from teo_sign_translator.pipeline.completeness import CompleteTranslation, read_gloss
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
@@ -109,10 +109,14 @@ class Doers:
             person = _NEXT.fullmatch(words[verb].tag) if start <= verb < stop else None
             if person is None or whom < 0:
                 continue
-            named = any(self._may_do_it(words, at, verb) for at in range(start, stop))
-            by_nobody = words[verb].readings[0].lemma in self._done_by_nobody
+            is_noun = words[whom].tag.startswith(_NAMES)
+            named = any(self._may_do_it(words, at, verb) for at in range(start, stop)) or (
+                is_noun and any(word.tag.startswith("PRON:neg") for word in words[start:stop])
+            )
+            feels = any(word.tag.startswith("A:") for word in words[verb + 1 : verb + 3])  # "está enfadado"
+            by_nobody = words[verb].readings[0].lemma in self._done_by_nobody and not feels
             own = [at for at, gloss in enumerate(said.glosses) if min(gloss.sources, default=-1) >= start]
-            before = (gloss.gloss for gloss in said.glosses if gloss.sources == (whom,))
+            before = (gloss.gloss for gloss in said.glosses if gloss.sources == (whom,) and not is_noun)
             who = next(before, self._pointing.get(person[1], ""))
             pointed = any(said.glosses[at].gloss in (self._who, who) for at in own)
             if who and own and not named and not by_nobody and not pointed:
@@ -120,7 +124,7 @@ class Doers:
         return said
 
     def _done_to(self, words: Sequence[SourceWord], start: int, stop: int) -> int:
-        """Where a pronoun alone names whom the signer does something to in a clause; -1 if none does."""
+        """Where whom the signer does something to or with in a clause is named; -1 if nobody is."""
         if not any(_SIGNERS.fullmatch(word.tag) for word in words[start:stop]):
             return -1
         for at in range(start, stop):
@@ -129,7 +133,9 @@ class Doers:
                 return at
             if not self._thirds.isdisjoint(words[at].readings[0].clitics):
                 return at
-        return -1
+        beside = (*self._towards, *self._beside)
+        named = (at for at in range(start, stop) if _behind_one_of(words, at, beside))
+        return next((at for at in named if self._topics.may_do(words[at])), -1)
 
     def _with_first(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """The same with who is left out of the first clause."""
@@ -184,6 +190,13 @@ class Doers:
         if preposition in self._beside:
             return happens[-1].readings[0].lemma not in self._done_by_nobody
         return preposition in self._towards and not done.isdisjoint(self._deeds)
+
+
+def _behind_one_of(words: Sequence[SourceWord], place: int, prepositions: Collection[str]) -> bool:
+    """Whether one of some prepositions stands before a noun and what belongs to it."""
+    before = (word for word in reversed(words[:place]) if not word.tag.startswith(("DET", "A:", "NUM")))
+    noun = words[place].tag.startswith(_NAMES) and words[place].tag != _PLACE
+    return noun and next((word.form in prepositions for word in before), False)
 
 
 def _is_after_mark(words: Sequence[SourceWord], verb: int) -> bool:

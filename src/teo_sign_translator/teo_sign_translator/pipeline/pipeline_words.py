@@ -115,6 +115,7 @@ class ConnectiveWords:
         companions: Glosses of prepositions before a person, and of those that are one word with it.
         little: Word that means "almost" between the preposition of reasons and a verb.
         almost: Gloss of that.
+        already: Gloss of what is done, which says nothing of what is to come.
     """
 
     through: str
@@ -127,6 +128,7 @@ class ConnectiveWords:
     companions: dict[str, str]
     little: str
     almost: str
+    already: str
 
 
 @dataclass(frozen=True)
