@@ -16,7 +16,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from teo_sign_translator.morphology.lexicon import nouns
-from teo_sign_translator.pipeline.completeness import CompleteTranslation, read_gloss
+from teo_sign_translator.pipeline.completeness import CompleteTranslation, own_places, read_gloss
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
@@ -35,6 +35,7 @@ _SURFACES = frozenset({"furniture", "room"})
 #: What may stand between a preposition and its noun, and between what is spoken of and the preposition.
 _BETWEEN = ("DET", "A:", "NUM", "ADV", "PRON:obj")
 _FINITE = ("V:ind", "V:sub", "V:cond", "V:imp")
+_QUANTITIES = ("DET:quant", "PRON:neg", "NUM")
 _COMING = "V:ind:fut"
 #: What begins something that is done.
 _DONE = ("V:ind", "ADV:neg", *CLITICS)
@@ -68,7 +69,7 @@ class Connectives:
             claimed = any(place in gloss.sources for gloss in said.glosses)
             if word.form == self._said.upon and not claimed and self._bears(words, place):
                 said = self._with_above(said, place, _noun_behind(words, place))
-        return self._with_companion(words, said)
+        return self._with_almost_before(words, self._with_companion(words, said))
 
     def _with_companion(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """The same with "with" or "for" where somebody only tells who is meant: "el que vive conmigo"."""
@@ -100,6 +101,22 @@ class Connectives:
             for gloss in said.glosses
         )
         return replace(said, glosses=glosses)
+
+    def _with_almost_before(
+        self, words: Sequence[SourceWord], said: CompleteTranslation
+    ) -> CompleteTranslation:
+        """The same with "almost" before what it belongs to: "casi todos" is CASI TODO."""
+        own = [own_places(words, gloss) for gloss in said.glosses]
+        almost = next((at for at, gloss in enumerate(said.glosses) if gloss.gloss == self._said.almost), -1)
+        if almost < 0 or len(own[almost]) != 1:
+            return said
+        behind = own[almost].pop() + 1
+        of = next((at for at, places in enumerate(own) if places == {behind}), -1)
+        if of < 0 or not words[behind].tag.startswith(_QUANTITIES):
+            return said
+        order = [at for at in range(len(own)) if at != almost]
+        order.insert(order.index(of), almost)
+        return said.in_order(order)
 
     def _without_going(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """The same without a verb that says only what was to come, "iba a llamarte", and goes nowhere."""

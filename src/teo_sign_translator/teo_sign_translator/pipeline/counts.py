@@ -91,7 +91,8 @@ class Counts:
         for place, (word, noun) in enumerate(pairwise(words)):
             is_said = place > 0 and words[place - 1].readings[0].lemma == self._said.is_verb
             only = not is_said and any(before.form in self._said.only for before in words[:place])
-            if word.form not in self._said.one or not (only or noun.form in self._said.measures):
+            counts = only or noun.form in self._said.measures or _is_behind_number(words, place)
+            if word.form not in self._said.one or not counts:
                 continue
             own = [{*gloss.sources} for gloss in said.glosses]
             at = next((at for at, each in enumerate(own) if {place + 1} <= each <= {place, place + 1}), -1)
@@ -109,3 +110,9 @@ class Counts:
             if span and first == last == "NUM" and to and place - 2 in said.glosses[to - 1].sources:
                 return said.with_glosses(to, read_gloss(self._said.until, place - 1))
         return said
+
+
+def _is_behind_number(words: Sequence[SourceWord], place: int) -> bool:
+    """Whether others are counted before a word: "dos pizzas y una ensalada"."""
+    before = [word.tag for word in words[max(0, place - 3) : place]]
+    return before[:1] == ["NUM"] and before[-1].startswith("CONJ")

@@ -10,7 +10,7 @@ from itertools import pairwise
 
 from teo_sign_translator.pipeline.completeness import CompleteTranslation, own_places, read_gloss
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
-from teo_sign_translator.text.source_word import SourceWord
+from teo_sign_translator.text.source_word import SourceWord, clause_end
 
 #: What begins the name of who is left out, and what is done by all.
 _NAMED = ("DET:def", "DET:poss", "NAME", "PRON", "PREP")
@@ -61,6 +61,8 @@ class Denials:
         if not len(denied) == len(again) == len(no) == 1 or said.glosses[denied[0]].sources != tuple(no):
             return said
         negative = said.glosses[again[0]]
+        if max(negative.sources, default=-1) >= clause_end(words, no[0]):  # "no funciona y nadie sabe"
+            return said
         glosses = list(said.glosses)
         glosses[again[0]] = replace(negative, sources=tuple(sorted({*negative.sources, *no})))
         return replace(said, glosses=tuple(glosses)).without(denied)
