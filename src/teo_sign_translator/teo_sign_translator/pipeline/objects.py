@@ -155,7 +155,7 @@ class Objects:
         to_whom = read_gloss(self._pointing[deed.to_whom], deed.clitic)
         if who.gloss in pointed or not self._is_deed(words, deed) or self._is_named(words, deed):
             return said
-        if words[-1].form == "?" and not asked:
+        if words[-1].form == "?" and not asked and deed.who == "3s":  # who may be the addressee, politely
             return said
         start = _clause_start(words, deed.clitic)
         first = [min(gloss.sources, default=start) for gloss in said.glosses]
@@ -196,7 +196,8 @@ class Objects:
     def _is_deed(self, words: Sequence[SourceWord], deed: _Deed) -> bool:
         """Whether a third person does it on purpose, in a statement: "me llamó", not "me gusta llamar"."""
         finite = words[deed.verbs[0]].readings[0]
-        if not _SAYS_WHO.fullmatch(finite.tag) or finite.lemma in self._experiencer_verbs:
+        says_who = _SAYS_WHO.fullmatch(finite.tag) or _OTHERS.fullmatch(finite.tag)
+        if not says_who or finite.lemma in self._experiencer_verbs:
             return False
         done = {reading.lemma for reading in words[deed.verbs[-1]].readings if reading.tag.startswith("V:")}
         return not done.isdisjoint(self._who.deeds)
@@ -210,7 +211,11 @@ class Objects:
         )
         pronouns = words[max(0, deed.clitic - 1) : deed.verbs[0]]
         happens = any(word.tag.startswith("PRON:refl") for word in pronouns)  # se me olvidó
-        return joined or happens or any(self._may_be(words, at, deed) for at in range(start, stop))
+        return (
+            joined
+            or happens
+            or any(self._may_be(words, at, deed) for at in range(start, stop) if at not in deed.verbs)
+        )
 
     def _may_be(self, words: Sequence[SourceWord], place: int, deed: _Deed) -> bool:
         """Whether a word may name who does it; behind the verb only somebody does, no thing."""
