@@ -41,9 +41,9 @@ PARTS = re.compile(r"(?<=[.?!…])\s+|[;\"“”«»]")
 # were written more generously.
 MOST_ORDERS = 6
 MOST_ACCEPTED = {"blind": 264, "known": 200, "ase/blind": 22, "ase/known": 200, "ase/published": 200}
-# Known sentences that must come out as accepted, by set and language. The shipped translators have 1334 of
-# the 1861, 267 of the 344 and 47 of the 99: a mend of one may cost another one or two; more is a loss.
-FLOORS = {("known", "ssp"): 1328, ("ase/known", "ase"): 259, ("ase/published", "ase"): 46}
+# Known sentences that must come out as accepted, by set and language. The shipped translators have 1429 of
+# the 1982, 267 of the 344 and 47 of the 99: a mend of one may cost another one or two; more is a loss.
+FLOORS = {("known", "ssp"): 1424, ("ase/known", "ase"): 259, ("ase/published", "ase"): 46}
 
 
 def lines(root: Path, name: Path | str) -> list[str]:

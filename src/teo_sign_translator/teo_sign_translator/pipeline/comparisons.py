@@ -94,8 +94,8 @@ class Comparisons:
         if than or liking + 2 >= len(words):
             return 0
         if words[liking + 1].tag.startswith("V:inf"):  # "quedarme en casa a salir", but "ir a casa a comer"
-            behind = range(liking + 3, len(words) - 1)
-            to = next((at for at in behind if words[at].form in self._towards and _does(words[at + 1])), 0)
+            rest = range(liking + 3, len(words) - 1)
+            to = next((at for at in rest if words[at].form in self._towards and _does(words[at + 1])), 0)
             goes = words[liking + 1].readings[0].lemma in self._said.going
             return to if not goes or words[to - 1].tag.startswith("V:ger") else 0
         if not words[liking + 1].tag.startswith("DET"):

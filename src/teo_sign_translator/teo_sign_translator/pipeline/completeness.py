@@ -250,7 +250,8 @@ class Completeness:
             again = bool(result) and result[-1].gloss == gloss.gloss
             if taken.issuperset(own) and (again or (gloss.copied and own)):
                 continue
-            said = [each for each in result if each.gloss == gloss.gloss]
+            free = self.wordless is not None and gloss.gloss in self.wordless  # the hour in "a las tres"
+            said = [] if free else [each for each in result if each.gloss == gloss.gloss]
             looked_at = set(own) & {*gloss.sources}
             if said and taken >= looked_at and any(map(self._has_meaning, (words[at] for at in looked_at))):
                 before = result[: result.index(said[-1])]

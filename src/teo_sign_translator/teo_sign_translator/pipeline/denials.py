@@ -31,7 +31,8 @@ class Denials:
             words: Of the sentence.
             said: A translation of it.
         """
-        said = self._with_more(words, self._with_one_denial(words, said))
+        said = self._with_each_denial(words, self._with_one_denial(words, said))
+        said = self._with_more(words, said)
         said = self._with_opposite(words, said)
         return self._with_exception(words, said)
 
@@ -66,6 +67,26 @@ class Denials:
         glosses = list(said.glosses)
         glosses[again[0]] = replace(negative, sources=tuple(sorted({*negative.sources, *no})))
         return replace(said, glosses=tuple(glosses)).without(denied)
+
+    def _with_each_denial(
+        self, words: Sequence[SourceWord], said: CompleteTranslation
+    ) -> CompleteTranslation:
+        """The same with "not" in one clause beside "nobody" of the next: "no funciona y nadie lo sabe"."""
+        names = [gloss.gloss for gloss in said.glosses]
+        negatives = {
+            at for gloss in said.glosses if gloss.gloss in self._said.negatives for at in gloss.sources
+        }
+        if self._said.negation in names or not negatives:
+            return said
+        for place, word in enumerate(words[:-1]):
+            stop = clause_end(words, place)
+            verb = next((at for at in range(place, stop) if words[at].tag.startswith(_FINITE)), -1)
+            if word.form != self._said.denying or verb < 0 or max(negatives) < stop:
+                continue
+            own = [at for at, gloss in enumerate(said.glosses) if verb in own_places(words, gloss)]
+            if own:
+                return said.with_glosses(own[-1] + 1, read_gloss(self._said.negation, place))
+        return said
 
     def _with_more(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """The same without "not only", where something else follows: "no solo canta, también baila"."""

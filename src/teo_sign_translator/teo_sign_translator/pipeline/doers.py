@@ -84,6 +84,8 @@ class Doers:
             place = next(named, -1)
             before = any(at < place for at in own)
             behind = [at for at in own if at > place and verb in said.glosses[at].sources]
+            while place > 0 and min(said.glosses[place - 1].sources, default=-1) > verb:
+                place -= 1
             if place >= 0 and asked.gloss and not before:
                 return said.without(behind).with_glosses(place, asked)
         return said

@@ -126,7 +126,7 @@ class Objects:
                 to_whom, verbs = reading.tag.removeprefix(OBJECT), _behind(words, place)
             if not verbs or to_whom not in self._who.clitics.values():
                 continue
-            who = words[verbs[0]].tag.rsplit(":", 1)[-1]
+            who = (_finite(words[verbs[0]]) or words[verbs[0]].tag).rsplit(":", 1)[-1]
             # "se me olvidó llamarte", "quiere verme": who feels, and who is named before.
             is_open = at_end and who.startswith(_THIRD) and not _acts(words, verbs)
             if who in self._pointing and who[0] != to_whom[0] and not is_open:  # else it is reflexive
@@ -231,6 +231,12 @@ def _clause_start(words: Sequence[SourceWord], place: int) -> int:
     return next((at for at in range(place, 0, -1) if words[at - 1].tag.startswith(OPENING)), 0)
 
 
+def _finite(word: SourceWord) -> str:
+    """The tag of what a word is behind a pronoun: "te mando" is no noun; empty if it is no finite verb."""
+    exact = (each.tag for each in word.readings if each.exact and each.tag.startswith("V:ind"))
+    return word.tag if word.tag.startswith(_FINITE) else next(exact, "") if word.tag.startswith("N:") else ""
+
+
 def _says(word: SourceWord, person: str) -> bool:
     """Whether a verb's form is of a person."""
     return word.tag.rsplit(":", 1)[-1].startswith(person)
@@ -246,7 +252,7 @@ def _behind(words: Sequence[SourceWord], clitic: int) -> tuple[int, ...]:
     following = (at for at in range(clitic + 1, len(words)) if not words[at].tag.startswith(CLITICS))
     finite = next(following, -1)
     is_pronoun = any(each.tag.startswith(OBJECT) for each in words[clitic].readings)
-    if not is_pronoun or finite < 0 or not words[finite].tag.startswith(_FINITE):
+    if not is_pronoun or finite < 0 or not _finite(words[finite]):
         return ()
     places = [finite]
     for place in range(finite + 1, len(words)):
@@ -275,5 +281,6 @@ def _up_to(words: Sequence[SourceWord], place: int) -> tuple[int, ...]:
 def _acts(words: Sequence[SourceWord], verbs: tuple[int, ...]) -> bool:
     """Whether one who is not named goes on or begins to do it: "volvió a llamarme", no "ven a verme"."""
     governs = len(verbs) > 1 and words[verbs[0] + 1].tag.startswith("PREP")
-    may_ask = verbs[0] == 0 and words[0].tag.startswith("V:ind:pres")
+    opens = verbs[0] == 0 or words[verbs[0] - 1].is_mark
+    may_ask = opens and words[verbs[0]].tag.startswith("V:ind:pres")
     return governs and not may_ask and not (verbs[0] > 0 and words[verbs[0] - 1].tag.startswith(CLITICS))

@@ -94,11 +94,9 @@ def _behind(words: Sequence[SourceWord], place: int, morphology: Morphology) -> 
     if any(each.exact for each in verbs) and all(each.tag in _SUBJECTS for each in before.readings):
         return tuple(each for each in word.readings if not each.tag.startswith("N:"))
     doubled = place > 1 and words[place - 2].tag.startswith(CLITICS)  # me lo
-    pronoun = before.tag.startswith(CLITICS)
-    careful = words[0].text[:1].isupper()  # typed in haste, "te mando tu prima" is "mandó"
-    if pronoun and careful and any(each.exact for each in verbs):  # no tea, but who is acted upon
-        return tuple(each for each in word.readings if not each.tag.startswith("N:"))
-    if all(each.tag.startswith(CLITICS) for each in before.readings) or (doubled and pronoun):
+    if all(each.tag.startswith(CLITICS) for each in before.readings) or (
+        doubled and before.tag.startswith(CLITICS)
+    ):
         return verbs if any(each.exact for each in verbs) else word.readings
     tags = [each.tag for each in before.readings if each.exact]
     if tags == ["ADV:neg"] and any(each.exact for each in verbs):  # "no vino", but "no solo"

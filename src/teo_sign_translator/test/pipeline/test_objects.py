@@ -69,6 +69,11 @@ def meant(rule: Objects | Wishes | Doers, sentence: str, model: str) -> str:
         ("¿Quién me llamó?", "LLAMAR/llamó QUIÉN/quién", "LLAMAR QUIÉN"),
         ("Dile a Ana que me llame.", "ANA/ana DECIR/dile LLAMAR/llame", "ANA DECIR YO LLAMAR"),
         ("Se nos acabó el pan.", "PAN/pan ACABAR/acabó", "PAN ACABAR"),
+        # Others, who would not be asked politely; and the addressee who is.
+        ("Me han pagado.", "YO/me PAGAR/pagado", "ELLOS YO PAGAR"),
+        ("¿Te han llamado?", "TÚ/te LLAMAR/llamado", "ELLOS TÚ LLAMAR"),
+        ("¿Me ayuda?", "YO/me AYUDAR/ayuda", "USTED YO AYUDAR"),
+        ("Venga, deja de llamarme.", "DEJAR/deja YO/llamarme LLAMAR/llamarme", "DEJAR YO LLAMAR"),
         # Who does it stands first, and others do what nobody is named for.
         ("Al perro lo persigue el gato.", "PERRO/perro GATO/gato PERSEGUIR/persigue", "GATO PERRO PERSEGUIR"),
         ("A Ana la vio Pedro.", "ANA/ana PEDRO/pedro VER/vio", "PEDRO ANA VER"),
