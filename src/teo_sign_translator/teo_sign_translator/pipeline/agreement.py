@@ -17,13 +17,12 @@ from teo_sign_translator.data_files import invalid_line, read_rows
 from teo_sign_translator.morphology import Reading
 from teo_sign_translator.morphology.lexicon import nouns
 from teo_sign_translator.pipeline.pipeline_words import PersonWords, PipelineWords
-from teo_sign_translator.text.source_word import CLITICS, SourceWord, between_marks
+from teo_sign_translator.text.source_word import CLITICS, FINITE, SourceWord, between_marks
 
 _DATIVE, _PERSON, _BODY = "dative", "person", "body"
 _NONE = "-"
 
 _ENDS = (".", "?", "!")
-_FINITE = ("V:ind", "V:cond", "V:sub", "V:imp")
 _OF_PEOPLE = frozenset({"person", "family", "profession"})
 
 
@@ -102,7 +101,7 @@ def _names_person(reading: Reading, people: frozenset[str]) -> bool:
 def _says_verb(words: Sequence[SourceWord]) -> bool:
     """Whether a verb is among the words of the same sentence."""
     start = max((index + 1 for index, word in enumerate(words) if word.form in _ENDS), default=0)
-    return any(word.tag.startswith(_FINITE) for word in words[start:])
+    return any(word.tag.startswith(FINITE) for word in words[start:])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -146,16 +145,16 @@ class _Clause:
 
     def _finite(self) -> int | None:
         """Place of the verb that has a person: this one, or the last before it that governs it."""
-        if any(reading.tag.startswith(_FINITE) for reading in self.readings):
+        if any(reading.tag.startswith(FINITE) for reading in self.readings):
             return self.verb
         before = range(self.verb - 1, -1, -1)
         return next((place for place in before if self._finite_readings(place)), None)
 
     def _finite_readings(self, place: int) -> list[Reading]:
         if place == self.verb:
-            return [reading for reading in self.readings if reading.tag.startswith(_FINITE)]
+            return [reading for reading in self.readings if reading.tag.startswith(FINITE)]
         likeliest = self.words[place].readings[0]
-        return [likeliest] if likeliest.tag.startswith(_FINITE) else []
+        return [likeliest] if likeliest.tag.startswith(FINITE) else []
 
     def _clitics(self, finite: int | None) -> tuple[list[str], bool]:
         """Pronouns of the verb, and whether they stand before it."""

@@ -54,7 +54,8 @@ class Comparisons:
             if words[than].form != self._said.than or not compares or not time or told or not present:
                 continue
             own = [at for at, gloss in enumerate(said.glosses) if min(gloss.sources, default=-1) > than]
-            if own and own == list(range(len(own))) and said.glosses[len(own)].gloss != self._said.now:
+            rest = [gloss.gloss for gloss in said.glosses[len(own) :]]
+            if own and own == list(range(len(own))) and rest[:1] != [self._said.now]:
                 return said.with_glosses(len(own), read_gloss(self._said.now, than))
         return said
 

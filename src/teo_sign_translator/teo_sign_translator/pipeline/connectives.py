@@ -20,7 +20,7 @@ from teo_sign_translator.pipeline.completeness import CompleteTranslation, own_p
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
-from teo_sign_translator.text.source_word import CLITICS, COMPANIONS, SourceWord
+from teo_sign_translator.text.source_word import CLITICS, COMPANIONS, FINITE, SourceWord
 
 #: Classes of nouns through which, by which or at which something is done.
 _WAYS = frozenset({"place", "building", "room", "furniture", "body", "time"})
@@ -34,7 +34,6 @@ _AGENTS = frozenset({"person", "family", "profession", "animal", "group"})
 _SURFACES = frozenset({"furniture", "room"})
 #: What may stand between a preposition and its noun, and between what is spoken of and the preposition.
 _BETWEEN = ("DET", "A:", "NUM", "ADV", "PRON:obj")
-_FINITE = ("V:ind", "V:sub", "V:cond", "V:imp")
 _QUANTITIES = ("DET:quant", "PRON:neg", "NUM")
 _COMING = "V:ind:fut"
 #: What begins something that is done.
@@ -143,9 +142,7 @@ class Connectives:
             at
             for at, word in enumerate(words)
             if copied_gloss(word.readings[0]) == self._said.already
-            and next((each.tag for each in words[at:] if each.tag.startswith(_FINITE)), "").startswith(
-                _COMING
-            )
+            and next((each.tag for each in words[at:] if each.tag.startswith(FINITE)), "").startswith(_COMING)
         }
         done = [at for at, gloss in enumerate(said.glosses) if gloss.gloss == self._said.already]
         return said.without([at for at in done if already & {*said.glosses[at].sources}])

@@ -10,11 +10,10 @@ from itertools import pairwise
 
 from teo_sign_translator.pipeline.completeness import CompleteTranslation, own_places, read_gloss
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
-from teo_sign_translator.text.source_word import SourceWord, clause_end
+from teo_sign_translator.text.source_word import TELLING, SourceWord, clause_end
 
 #: What begins the name of who is left out, and what is done by all.
 _NAMED = ("DET:def", "DET:poss", "NAME", "PRON", "PREP")
-_FINITE = ("V:ind", "V:sub", "V:cond")
 
 
 class Denials:
@@ -43,7 +42,8 @@ class Denials:
             if not apart or not any(word.readings[0].lemma in self._said.all for word in words[:place]):
                 continue
             behind = range(place + 1, len(words))
-            stop = next((at for at in behind if words[at].tag.startswith(_FINITE) or words[at].is_mark), -1)
+            ending = (at for at in behind if words[at].tag.startswith(TELLING) or words[at].is_mark)
+            stop = next(ending, len(words))
             left = [own_places(words, gloss) for gloss in said.glosses]
             out = [at for at, own in enumerate(left) if own and own <= {*range(place + 1, stop)}]
             lead = [at for at, own in enumerate(left) if at not in out and own != {place}]
@@ -80,7 +80,7 @@ class Denials:
             return said
         for place, word in enumerate(words[:-1]):
             stop = clause_end(words, place)
-            verb = next((at for at in range(place, stop) if words[at].tag.startswith(_FINITE)), -1)
+            verb = next((at for at in range(place, stop) if words[at].tag.startswith(TELLING)), -1)
             if word.form != self._said.denying or verb < 0 or max(negatives) < stop:
                 continue
             own = [at for at, gloss in enumerate(said.glosses) if verb in own_places(words, gloss)]

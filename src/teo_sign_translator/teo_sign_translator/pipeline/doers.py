@@ -15,9 +15,17 @@ from collections.abc import Collection, Sequence
 from teo_sign_translator.pipeline.completeness import CompleteTranslation, read_gloss
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pipeline.topic import Topics, behind_preposition
-from teo_sign_translator.text.source_word import CLITICS, COMPANIONS, OBJECT, OPENING, SourceWord, clause_end
+from teo_sign_translator.text.source_word import (
+    CLITICS,
+    COMPANIONS,
+    FINITE,
+    NOUNS,
+    OBJECT,
+    OPENING,
+    SourceWord,
+    clause_end,
+)
 
-_FINITE = ("V:ind", "V:sub", "V:cond", "V:imp")
 #: Of a verb that says by its form alone that it is neither the signer nor the addressee who does it.
 _OTHERS = re.compile(r"V:ind:(?!impf).*:3s")
 #: Of a verb that may ask the addressee, too, unless there is something of a third person's.
@@ -30,7 +38,6 @@ _SIGNERS = re.compile(r"V:(ind|sub|cond).*:1[sp]")
 _NEXT = re.compile(r"V:ind:(?!impf).*:(3[sp])")
 _THIRD = f"{OBJECT}3"
 _JOINING = ("MARK", "CONJ")
-_NAMES = ("N:", "NAME")
 _PLACE = "NAME:place"
 #: Of what the addressee is asked to do, or not to do.
 _ORDER = "V:imp:2s"
@@ -93,7 +100,7 @@ class Doers:
     def _is_asked_for(self, words: Sequence[SourceWord], place: int, verb: int) -> bool:
         """Whether a word names somebody to whom what is asked for should be done."""
         word = words[place]
-        named = word.tag.startswith(_NAMES) and word.tag != _PLACE and self._topics.may_do(word)
+        named = word.tag.startswith(NOUNS) and word.tag != _PLACE and self._topics.may_do(word)
         prepositions = (each.form for each in reversed(words[verb:place]) if each.tag.startswith("PREP"))
         return named and next(prepositions, "") in self._towards
 
@@ -106,12 +113,12 @@ class Doers:
             if opening > start:  # else a comma and a conjunction part the same two clauses
                 whom = self._done_to(words, start, opening)
             start = opening + 1
-            verb = next((at for at in range(start, len(words)) if words[at].tag.startswith(_FINITE)), -1)
+            verb = next((at for at in range(start, len(words)) if words[at].tag.startswith(FINITE)), -1)
             stop = clause_end(words, start)
             person = _NEXT.fullmatch(words[verb].tag) if start <= verb < stop else None
             if person is None or whom < 0:
                 continue
-            is_noun = words[whom].tag.startswith(_NAMES)
+            is_noun = words[whom].tag.startswith(NOUNS)
             named = any(self._may_do_it(words, at, verb) for at in range(start, stop)) or (
                 is_noun and any(word.tag.startswith("PRON:neg") for word in words[start:stop])
             )
@@ -131,7 +138,7 @@ class Doers:
             return -1
         for at in range(start, stop):
             pronoun = any(each.tag.startswith(_THIRD) for each in words[at].readings)
-            if pronoun and words[at + 1].tag.startswith(_FINITE):  # "la" is an article elsewhere
+            if pronoun and words[at + 1].tag.startswith(FINITE):  # "la" is an article elsewhere
                 return at
             if not self._thirds.isdisjoint(words[at].readings[0].clitics):
                 return at
@@ -141,7 +148,7 @@ class Doers:
 
     def _with_first(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """The same with who is left out of the first clause."""
-        verb = next((at for at, word in enumerate(words) if word.tag.startswith(_FINITE)), 0)
+        verb = next((at for at, word in enumerate(words) if word.tag.startswith(FINITE)), 0)
         opened = any(word.tag.startswith(OPENING) for word in words[:verb])
         if opened or words[-1].form == "?" or not _OTHERS.fullmatch(words[verb].tag):
             return said
@@ -184,7 +191,7 @@ class Doers:
         done = {each.readings[0].lemma for each in (words[verb], *happens)}
         if word.tag.startswith(COMPANIONS):
             return happens[-1].readings[0].lemma not in self._done_by_nobody
-        if not word.tag.startswith(_NAMES) or not self._topics.may_do(word):
+        if not word.tag.startswith(NOUNS) or not self._topics.may_do(word):
             return False
         preposition = next(
             (each.form for each in reversed(words[verb:place]) if each.tag.startswith("PREP")), ""
@@ -197,7 +204,7 @@ class Doers:
 def _behind_one_of(words: Sequence[SourceWord], place: int, prepositions: Collection[str]) -> bool:
     """Whether one of some prepositions stands before a noun and what belongs to it."""
     before = (word for word in reversed(words[:place]) if not word.tag.startswith(("DET", "A:", "NUM")))
-    noun = words[place].tag.startswith(_NAMES) and words[place].tag != _PLACE
+    noun = words[place].tag.startswith(NOUNS) and words[place].tag != _PLACE
     return noun and next((word.form in prepositions for word in before), False)
 
 

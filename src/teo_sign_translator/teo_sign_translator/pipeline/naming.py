@@ -13,7 +13,7 @@ from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pipeline.topic import Topics
 from teo_sign_translator.pointer.vocabulary import copied_gloss
 from teo_sign_translator.text.rules import TextRules
-from teo_sign_translator.text.source_word import CLITICS, OBJECT, SourceWord
+from teo_sign_translator.text.source_word import CLITICS, NOUNS, OBJECT, SourceWord
 
 
 class Naming:
@@ -40,7 +40,7 @@ class Naming:
         for verb in range(1, len(words) - 1):
             name, pronoun = words[verb + 1], words[verb - 1].tag
             calls = words[verb].readings[0].lemma in self._calling and pronoun.startswith(CLITICS)
-            if not calls or not name.capital or not name.tag.startswith(("NAME", "N:")):
+            if not calls or not name.capital or not name.tag.startswith(NOUNS):
                 continue
             says = {self._name, copied_gloss(words[verb].readings[0])}
             behind = [gloss.gloss not in says and verb + 1 in gloss.sources for gloss in said.glosses]

@@ -17,15 +17,21 @@ from teo_sign_translator.morphology import Reading
 from teo_sign_translator.pipeline.completeness import CompleteTranslation, own_places, read_gloss
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pipeline.topic import Topics
-from teo_sign_translator.text.source_word import CLITICS, OBJECT, OPENING, SourceWord, clause_end
+from teo_sign_translator.text.source_word import (
+    CLITICS,
+    NOUNS,
+    OBJECT,
+    OPENING,
+    TELLING,
+    SourceWord,
+    clause_end,
+)
 
 #: Of a verb that says by its form alone that it is neither the signer nor the addressee who does it.
 _SAYS_WHO = re.compile(r"V:ind:(?!impf).*:3s")
 _OTHERS = re.compile(r"V:ind:.*:3p")
-_NOUNS = ("N:", "NAME")
 _THIRD = "3"
 _SIGNER = "1s"
-_FINITE = ("V:ind", "V:sub", "V:cond")
 #: Of verbs that another one governs, and what may stand between the two.
 _GOVERNED = ("V:inf", "V:ger", "V:part")
 _LINKS = ("PREP", "CONJ", "PRON:rel", "ADV")
@@ -102,7 +108,7 @@ class Objects:
         deed = words[start - 1].readings[0].lemma in self._who.deeds or words[clitic].form in self._things
         actor = range(start, clause_end(words, start, ("PREP", "V:", *OPENING)))
         if not deed or not any(
-            self._topics.may_do(words[at]) and words[at].tag.startswith(_NOUNS) for at in actor
+            self._topics.may_do(words[at]) and words[at].tag.startswith(NOUNS) for at in actor
         ):
             return said
         own = [own_places(words, gloss) for gloss in said.glosses]
@@ -234,7 +240,7 @@ def _clause_start(words: Sequence[SourceWord], place: int) -> int:
 def _finite(word: SourceWord) -> str:
     """The tag of what a word is behind a pronoun: "te mando" is no noun; empty if it is no finite verb."""
     exact = (each.tag for each in word.readings if each.exact and each.tag.startswith("V:ind"))
-    return word.tag if word.tag.startswith(_FINITE) else next(exact, "") if word.tag.startswith("N:") else ""
+    return word.tag if word.tag.startswith(TELLING) else next(exact, "") if word.tag.startswith("N:") else ""
 
 
 def _says(word: SourceWord, person: str) -> bool:
@@ -271,7 +277,7 @@ def _up_to(words: Sequence[SourceWord], place: int) -> tuple[int, ...]:
     perfect = any(word.tag.startswith("V:part") for word in words[place + 1 : place + 2])  # haberme llamado
     done = (place, place + 1) if perfect else (place,)
     for before in range(place - 1, -1, -1):
-        if words[before].tag.startswith((*_FINITE, "V:imp")):
+        if words[before].tag.startswith((*TELLING, "V:imp")):
             return (before, *done)
         if not words[before].tag.startswith((*_LINKS, *_GOVERNED)):
             break

@@ -19,11 +19,10 @@ from teo_sign_translator.pipeline.completeness import CompleteTranslation
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pipeline.topic import Topics, behind_preposition
 from teo_sign_translator.pointer import OutputGloss
-from teo_sign_translator.text.source_word import CLITICS, OBJECT, SourceWord, between_marks
+from teo_sign_translator.text.source_word import CLITICS, OBJECT, TELLING, SourceWord, between_marks
 
-_FINITE = ("V:ind", "V:cond", "V:sub")
 #: Of words that say themselves who does it.
-_WHOSE = (*_FINITE, "V:imp", "PRON")
+_WHOSE = (*TELLING, "V:imp", "PRON")
 #: Before a person of the signer's, who may be meant by what stands beside it.
 _POSSESSIVE = "DET:poss:1"
 _MAIN = ("V:ind", "V:cond")
@@ -126,7 +125,7 @@ class Subjects:
         for place in range(gloss.sources[0] - 1, -1, -1):  # of what a noun or an adjective is said
             if words[place].is_mark:
                 return -1
-            if words[place].tag.startswith(_FINITE):
+            if words[place].tag.startswith(TELLING):
                 return place if _says(words[place].readings[:1], _AMBIGUOUS) else -1
         return -1
 
@@ -174,7 +173,7 @@ class Subjects:
         for place in range(start, verb):
             if not self._names(words[place]) or behind_preposition(words, place):
                 continue
-            behind = next((word for word in words[place + 1 :] if word.tag.startswith(_FINITE)), None)
+            behind = next((word for word in words[place + 1 :] if word.tag.startswith(TELLING)), None)
             if behind is not None and behind.tag.endswith(":3s"):
                 return True
         return False

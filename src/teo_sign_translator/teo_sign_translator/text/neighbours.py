@@ -11,12 +11,11 @@ from itertools import pairwise
 
 from teo_sign_translator.morphology import Morphology, Reading
 from teo_sign_translator.text.rules import TextRules
-from teo_sign_translator.text.source_word import CLITICS, SourceWord
+from teo_sign_translator.text.source_word import CLITICS, FINITE, SourceWord
 
-_FINITE = ("V:ind", "V:sub", "V:cond", "V:imp")
 _MASCULINE = re.compile("[NA]:[mc][sn]|V:part:ms")
 # Forms of a verb that tell its person, as not every language's do.
-_PERSONAL = re.compile(f"(?:{'|'.join(_FINITE)}).*:[123][sp]")
+_PERSONAL = re.compile(f"(?:{'|'.join(FINITE)}).*:[123][sp]")
 # What may stand between what opens a clause and its verb.
 _BEFORE_VERBS = ("ADV:neg", *CLITICS)
 # Pronouns that are subjects alone; question words, and articles that are pronouns too or stand before them:
@@ -32,7 +31,7 @@ def told_by_neighbours(words: list[SourceWord], morphology: Morphology) -> list[
         written = told.perfect.get(word.form)
         if written and not _is_participle(following, behind=words[place - 1] if place else None):
             written = None
-        if place == 0 and following.tag.startswith(("ADV:neg", *CLITICS, *_FINITE)):
+        if place == 0 and following.tag.startswith(("ADV:neg", *CLITICS, *FINITE)):
             written = told.opening.get(word.form, written)
         if word.form in told.conditional and (place == 0 or words[place - 1].is_mark):
             verb = next((each for each in words[place + 1 :] if not each.tag.startswith(_BEFORE_VERBS)), word)
@@ -124,7 +123,7 @@ def _governs(word: SourceWord) -> bool:
 
 def _may_order(word: SourceWord, morphology: Morphology) -> bool:
     """Whether a word may be an order to somebody who is called *tú*."""
-    verbs = {reading.lemma for reading in word.readings if reading.tag.startswith(_FINITE)}
+    verbs = {reading.lemma for reading in word.readings if reading.tag.startswith(FINITE)}
     return any(morphology.is_form(word.form, verb, "V:imp:2s") for verb in verbs)
 
 
@@ -169,7 +168,7 @@ def _does(word: SourceWord, following: SourceWord, copulas: Collection[str]) -> 
 
 def _as_order(readings: tuple[Reading, ...]) -> tuple[Reading, ...]:
     """Readings of a word that is a clause of its own: of two verbs the one that is an order ("Ven, ...")."""
-    verbs = [reading for reading in readings if reading.tag.startswith(_FINITE)]
+    verbs = [reading for reading in readings if reading.tag.startswith(FINITE)]
     orders = tuple(reading for reading in verbs if reading.tag.startswith("V:imp"))
     return orders if orders and len({reading.lemma for reading in verbs}) > 1 else readings
 
@@ -182,7 +181,7 @@ def _is_participle(word: SourceWord, *, behind: SourceWord | None) -> bool:
 
 
 def _is_nominal(reading: Reading) -> bool:
-    return not reading.tag.startswith((*_FINITE, "PREP"))
+    return not reading.tag.startswith((*FINITE, "PREP"))
 
 
 def _no_orders(readings: tuple[Reading, ...]) -> tuple[Reading, ...]:
@@ -202,6 +201,6 @@ def _without_verbs(readings: tuple[Reading, ...], *, prepositions: bool) -> tupl
     kept = (
         reading
         for reading in readings
-        if not reading.tag.startswith(_FINITE) and not (reading.tag == "PREP" and nouns and not prepositions)
+        if not reading.tag.startswith(FINITE) and not (reading.tag == "PREP" and nouns and not prepositions)
     )
     return tuple(kept) or readings

@@ -15,7 +15,11 @@ OBJECT = "PRON:obj:"
 CLITICS = (OBJECT, "PRON:refl")
 #: How those begin of persons behind a preposition, or in one word with it.
 COMPANIONS = ("PRON:with", "PRON:prep")
-
+#: How those begin of verbs whose form says who does it, and of these with orders.
+TELLING = ("V:ind", "V:sub", "V:cond")
+FINITE = (*TELLING, "V:imp")
+#: How those begin of what names somebody or something.
+NOUNS = ("N:", "NAME")
 #: What a clause ends before or opens with.
 OPENING = ("MARK", "CONJ", "PRON:rel", "WH")
 
