@@ -73,7 +73,8 @@ class Comparisons:
             behind = (at for at, each in enumerate(said.glosses) if min(each.sources, default=0) > than)
             name, place = next(own, ""), next(behind, -1)
             if name and place >= 0:
-                return said.with_glosses(place + before, read_gloss(name, than + 1))
+                at = place + 1 if before else place  # PASADO SEMANA, but COCHE TU
+                return said.with_glosses(at, read_gloss(name, than + 1))
         return said
 
     def _with_less_liked(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
@@ -96,7 +97,9 @@ class Comparisons:
             return 0
         if words[liking + 1].tag.startswith("V:inf"):  # "quedarme en casa a salir", but "ir a casa a comer"
             rest = range(liking + 3, len(words) - 1)
-            to = next((at for at in rest if words[at].form in self._towards and _does(words[at + 1])), 0)
+            to = next(
+                (at for at in rest if words[at].form in self._towards and words[at + 1].tag == "V:inf"), 0
+            )
             goes = words[liking + 1].readings[0].lemma in self._said.going
             return to if not goes or words[to - 1].tag.startswith("V:ger") else 0
         if not words[liking + 1].tag.startswith("DET"):
@@ -105,10 +108,6 @@ class Comparisons:
         to = next(behind, 0)
         between = [word.tag for word in words[liking + 2 : to]]
         return to if to and all(tag.startswith(("N:", "A:")) for tag in between) else 0
-
-
-def _does(word: SourceWord) -> bool:
-    return word.tag.startswith("V:inf")
 
 
 def _names(noun: SourceWord, gloss: OutputGloss) -> bool:

@@ -279,7 +279,7 @@ class Completeness:
             if place not in signed
             and place not in courtesy
             and not self.function_words.may_be_left_out(word)
-            and not self._says_only_the_future(words, place)
+            and not self.words.says_only_the_future(words, place)
             and not self._asks_for_agreement(words, place)
             and not (exclaims and word.tag.startswith("WH"))  # "¡Qué bonito!" asks nothing
         ]
@@ -300,16 +300,6 @@ class Completeness:
             result.append([_likeliest(places, gloss, taken) for places in choices if places])
             taken.update(result[-1])
         return result
-
-    def _says_only_the_future(self, words: Sequence[SourceWord], place: int) -> bool:
-        """Whether a word is "voy" of "voy a comer", which a word of time may replace."""
-        following = words[place + 1 : place + 3]
-        return (
-            any(reading.lemma == self.words.goes for reading in words[place].readings)
-            and len(following) == 2
-            and following[0].form == self.words.goes_to
-            and any(reading.tag == "V:inf" for reading in following[1].readings)
-        )
 
     def _courtesy(self, words: Sequence[SourceWord]) -> tuple[int, ...]:
         """Places of the words of the courtesy; empty if none is said."""

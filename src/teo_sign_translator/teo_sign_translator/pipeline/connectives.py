@@ -15,11 +15,11 @@ from collections.abc import Sequence, Set
 from dataclasses import replace
 from pathlib import Path
 
+from teo_sign_translator.morphology import gloss_name
 from teo_sign_translator.morphology.lexicon import nouns
 from teo_sign_translator.pipeline.completeness import CompleteTranslation, own_places, read_gloss
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pointer import OutputGloss
-from teo_sign_translator.pointer.vocabulary import copied_gloss
 from teo_sign_translator.text.source_word import CLITICS, COMPANIONS, FINITE, SourceWord
 
 #: Classes of nouns through which, by which or at which something is done.
@@ -36,6 +36,7 @@ _SURFACES = frozenset({"furniture", "room"})
 _BETWEEN = ("DET", "A:", "NUM", "ADV", "PRON:obj")
 _QUANTITIES = ("DET:quant", "PRON:neg", "NUM")
 _COMING = "V:ind:fut"
+_WENT = "V:ind:impf"
 #: What begins something that is done.
 _DONE = ("V:ind", "ADV:neg", *CLITICS)
 
@@ -51,7 +52,8 @@ class Connectives:
         """
         language = PipelineWords.load(folder)
         self._said, self._preferring = language.connectives, language.comparisons.preferring
-        self._goes, self._goes_to = language.completeness.goes, language.completeness.goes_to
+        self._future = language.completeness
+        self._going = gloss_name(self._future.goes)
         self._classes = {noun.lemma: frozenset(noun.classes) for noun in nouns(folder)}
 
     def read(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
@@ -119,33 +121,23 @@ class Connectives:
 
     def _without_going(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """The same without a verb that says only what was to come, "iba a llamarte", and goes nowhere."""
-        going = [
+        going = {
             at
-            for at in range(len(words) - 2)
-            if words[at].readings[0].lemma == self._goes
-            and words[at].tag.startswith("V:ind:impf")
-            and words[at + 1].form == self._goes_to
-            and words[at + 2].tag.startswith("V:inf")
-        ]
-        named = [copied_gloss(words[at].readings[0]) for at in going]
-        return said.without(
-            [
-                at
-                for at, gloss in enumerate(said.glosses)
-                if gloss.gloss in named and {*going} & {*gloss.sources}
-            ]
-        )
+            for at, word in enumerate(words)
+            if word.tag.startswith(_WENT) and self._future.says_only_the_future(words, at)
+        }
+        named = [going & {*gloss.sources} and gloss.gloss == self._going for gloss in said.glosses]
+        return said.without([at for at, is_going in enumerate(named) if is_going])
 
     def _without_already(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """The same without "already" before what is still to come: "ya te enseñaré"."""
-        already = {
-            at
-            for at, word in enumerate(words)
-            if copied_gloss(word.readings[0]) == self._said.already
-            and next((each.tag for each in words[at:] if each.tag.startswith(FINITE)), "").startswith(_COMING)
-        }
-        done = [at for at, gloss in enumerate(said.glosses) if gloss.gloss == self._said.already]
-        return said.without([at for at in done if already & {*said.glosses[at].sources}])
+
+        def comes(place: int) -> bool:
+            done = (word.tag for word in words[place:] if word.tag.startswith(FINITE))
+            return next(done, "").startswith(_COMING)
+
+        already = (at for at, gloss in enumerate(said.glosses) if gloss.gloss == self._said.already)
+        return said.without([at for at in already if any(map(comes, own_places(words, said.glosses[at])))])
 
     def _is_wrong(self, words: Sequence[SourceWord], gloss: OutputGloss) -> bool:
         if gloss.gloss in self._said.asked:

@@ -21,8 +21,9 @@ class Counts:
     """Reads how many a language says."""
 
     def __init__(self, language: PipelineWords) -> None:
-        """Take how a language counts."""
+        """Take how a language counts and joins clauses."""
         self._said = language.counts
+        self._joiner = language.subjects.joiner
 
     def read(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """A translation in which numbers are said that the model leaves out.
@@ -60,7 +61,7 @@ class Counts:
 
     def _with_past(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """The same with "past" before how long ago it was: "hace dos años que murió", no "que no fumo"."""
-        joiner = next((at for at in range(3, len(words)) if words[at].form == self._said.that), 0)
+        joiner = next((at for at in range(3, len(words)) if words[at].form == self._joiner), 0)
         verb = next((word.tag for word in words[joiner:] if word.tag.startswith("V:")), "")
         ago = joiner > 0 and words[joiner - 3].form == self._said.ago and words[joiner - 2].tag == "NUM"
         told = any(gloss.gloss == self._said.past for gloss in said.glosses)

@@ -20,8 +20,8 @@ class Denials:
     """Reads what a language denies."""
 
     def __init__(self, language: PipelineWords) -> None:
-        """Take how a language denies."""
-        self._said = language.denials
+        """Take how a language denies, and says "only"."""
+        self._said, self._only = language.denials, language.counts.only
 
     def read(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """A translation in which "not" denies what is denied alone, and once.
@@ -92,7 +92,7 @@ class Denials:
         """The same without "not only", where something else follows: "no solo canta, también baila"."""
         for place, (word, only) in enumerate(pairwise(words)):
             follows = any(each.form in self._said.too for each in words[place + 2 :])
-            if word.form != self._said.denying or only.form not in self._said.only or not follows:
+            if word.form != self._said.denying or only.form not in self._only or not follows:
                 continue
             said_by = [own_places(words, gloss) for gloss in said.glosses]
             return said.without(

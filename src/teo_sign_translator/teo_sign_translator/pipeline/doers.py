@@ -14,20 +14,21 @@ from collections.abc import Collection, Sequence
 
 from teo_sign_translator.pipeline.completeness import CompleteTranslation, read_gloss
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
-from teo_sign_translator.pipeline.topic import Topics, behind_preposition
+from teo_sign_translator.pipeline.topic import Topics, behind_preposition, preposition_before
 from teo_sign_translator.text.source_word import (
+    BEFORE_VERBS,
     CLITICS,
     COMPANIONS,
     FINITE,
     NOUNS,
     OBJECT,
     OPENING,
+    THIRD_ALONE,
     SourceWord,
     clause_end,
+    opens_clause,
 )
 
-#: Of a verb that says by its form alone that it is neither the signer nor the addressee who does it.
-_OTHERS = re.compile(r"V:ind:(?!impf).*:3s")
 #: Of a verb that may ask the addressee, too, unless there is something of a third person's.
 _ASKING = "V:ind:pres:3s"
 _HIS = "DET:poss:3"
@@ -54,11 +55,7 @@ class Doers:
         self._asked = self._pointing.get("2s", "")
         self._persons = {*self._pointing.values(), *topics.subjects}
         self._deeds = language.subjects.deeds
-        self._done_by_nobody = (
-            language.completeness.of_things
-            | language.subjects.impersonal
-            | language.persons.experiencer_verbs
-        )
+        self._done_by_nobody = language.of_nobody
         objects = language.persons.objects.items()
         self._thirds = language.persons.things | {form for form, person in objects if person == "3"}
         self._towards, self._beside = language.persons.towards, language.subjects.beside
@@ -76,10 +73,10 @@ class Doers:
     def _with_asked(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """The same with who is asked before whom he should do it to: "dile a Ana que venga"."""
         for verb, word in enumerate(words):
-            denied = verb > 0 and words[verb - 1].tag.startswith(("ADV:neg", *CLITICS))
+            denied = verb > 0 and words[verb - 1].tag.startswith(BEFORE_VERBS)
             asks = word.tag == _ORDER or (word.tag.startswith(_DENIED_ORDER) and denied)
             opened = any(each.tag.startswith(OPENING) for each in words[:verb])
-            if not asks or (opened and not _is_after_mark(words, verb)):
+            if not asks or (opened and not opens_clause(words, verb)):
                 continue
             stop = clause_end(words, verb + 1)
             others = {at for at in range(verb + 1, stop) if self._is_asked_for(words, at, verb)}
@@ -99,10 +96,7 @@ class Doers:
 
     def _is_asked_for(self, words: Sequence[SourceWord], place: int, verb: int) -> bool:
         """Whether a word names somebody to whom what is asked for should be done."""
-        word = words[place]
-        named = word.tag.startswith(NOUNS) and word.tag != _PLACE and self._topics.may_do(word)
-        prepositions = (each.form for each in reversed(words[verb:place]) if each.tag.startswith("PREP"))
-        return named and next(prepositions, "") in self._towards
+        return place > verb and self._is_somebody_behind(words, place, self._towards)
 
     def _with_next(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """The same with whom something is done to, where he does the next thing: "la llamé y no contestó"."""
@@ -142,27 +136,34 @@ class Doers:
                 return at
             if not self._thirds.isdisjoint(words[at].readings[0].clitics):
                 return at
-        beside = (*self._towards, *self._beside)
-        named = (at for at in range(start, stop) if _behind_one_of(words, at, beside))
-        return next((at for at in named if self._topics.may_do(words[at])), -1)
+        beside = self._towards | self._beside
+        return next((at for at in range(start, stop) if self._is_somebody_behind(words, at, beside)), -1)
+
+    def _is_somebody_behind(
+        self, words: Sequence[SourceWord], place: int, prepositions: Collection[str]
+    ) -> bool:
+        """Whether a word names somebody, and one of some prepositions stands before the name."""
+        word, before = words[place], preposition_before(words, place)
+        named = word.tag.startswith(NOUNS) and word.tag != _PLACE and self._topics.may_do(word)
+        return named and before >= 0 and words[before].form in prepositions
 
     def _with_first(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """The same with who is left out of the first clause."""
         verb = next((at for at, word in enumerate(words) if word.tag.startswith(FINITE)), 0)
         opened = any(word.tag.startswith(OPENING) for word in words[:verb])
-        if opened or words[-1].form == "?" or not _OTHERS.fullmatch(words[verb].tag):
+        if opened or words[-1].form == "?" or not THIRD_ALONE.fullmatch(words[verb].tag):
             return said
         stop = clause_end(words, verb)
         named = any(self._may_do_it(words, at, verb) for at in range(stop))
         if stop == verb + 1 or named or self._asks(words, verb):
             return said
-        others = {at for at in range(verb + 1, stop) if self._is_acted_on(words, at, verb)}
+        names = [at for at in range(verb + 1, stop) if self._is_acted_on(words, at, verb)]
+        # Each with what belongs to it: "a ese hombre".
+        others = {each for at in names for each in range(preposition_before(words, at) + 1, at + 1)}
         place = next((at for at, gloss in enumerate(said.glosses) if others & {*gloss.sources}), -1)
         pointed = (gloss for gloss in said.glosses if gloss.gloss in self._persons)
         if place < 0 or not all(others & {*gloss.sources} for gloss in pointed):
             return said
-        while place > 0 and any(others & {at, at + 1, at + 2} for at in said.glosses[place - 1].sources):
-            place -= 1  # "ese hombre"
         return said.with_glosses(place, read_gloss(self._who, verb))
 
     def _asks(self, words: Sequence[SourceWord], verb: int) -> bool:
@@ -186,29 +187,10 @@ class Doers:
 
     def _is_acted_on(self, words: Sequence[SourceWord], place: int, verb: int) -> bool:
         """Whether a word names somebody whom what is done is done to, or with."""
-        word = words[place]
         happens = [each for each in words[verb:place] if each.tag.startswith((*_DONE, "A:"))] or [words[verb]]
         done = {each.readings[0].lemma for each in (words[verb], *happens)}
-        if word.tag.startswith(COMPANIONS):
-            return happens[-1].readings[0].lemma not in self._done_by_nobody
-        if not word.tag.startswith(NOUNS) or not self._topics.may_do(word):
-            return False
-        preposition = next(
-            (each.form for each in reversed(words[verb:place]) if each.tag.startswith("PREP")), ""
-        )
-        if preposition in self._beside:
-            return happens[-1].readings[0].lemma not in self._done_by_nobody
-        return preposition in self._towards and not done.isdisjoint(self._deeds)
-
-
-def _behind_one_of(words: Sequence[SourceWord], place: int, prepositions: Collection[str]) -> bool:
-    """Whether one of some prepositions stands before a noun and what belongs to it."""
-    before = (word for word in reversed(words[:place]) if not word.tag.startswith(("DET", "A:", "NUM")))
-    noun = words[place].tag.startswith(NOUNS) and words[place].tag != _PLACE
-    return noun and next((word.form in prepositions for word in before), False)
-
-
-def _is_after_mark(words: Sequence[SourceWord], verb: int) -> bool:
-    """Whether a verb opens what stands behind a mark, but for what denies and its pronouns."""
-    before = (word for word in reversed(words[:verb]) if not word.tag.startswith(("ADV:neg", *CLITICS)))
-    return next((word.is_mark for word in before), True)
+        by_somebody = happens[-1].readings[0].lemma not in self._done_by_nobody
+        beside = self._is_somebody_behind(words, place, self._beside)
+        if beside or words[place].tag.startswith(COMPANIONS):
+            return by_somebody
+        return self._is_somebody_behind(words, place, self._towards) and not done.isdisjoint(self._deeds)

@@ -6,29 +6,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from pathlib import Path
 
 from teo_sign_translator.pipeline.completeness import CompleteTranslation, read_gloss
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pipeline.topic import Topics
 from teo_sign_translator.pointer.vocabulary import copied_gloss
-from teo_sign_translator.text.rules import TextRules
 from teo_sign_translator.text.source_word import CLITICS, NOUNS, OBJECT, SourceWord
 
 
 class Naming:
     """Reads what somebody is called."""
 
-    def __init__(self, folder: Path) -> None:
-        """Read a language's text folder.
-
-        Raises:
-            TranslationError: "invalid_data" naming file and field.
-        """
-        self._calling = PipelineWords.load(folder).subjects.calling
-        self._pointing = PipelineWords.load(folder).subjects.pointing
-        self._topics = Topics(folder)
-        self._name = TextRules.load(folder).glosses.name
+    def __init__(self, language: PipelineWords, topics: Topics, name: str) -> None:
+        """Take how a language calls and points at persons, who may do things, and its gloss of "name"."""
+        self._calling, self._pointing = language.subjects.calling, language.subjects.pointing
+        self._topics, self._name = topics, name
 
     def read(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:
         """A translation in which the sign for "name" stands before a name.
@@ -47,8 +39,7 @@ class Naming:
             calling = [gloss.gloss in says and verb in gloss.sources for gloss in said.glosses]
             if not any(behind) or not any(calling):
                 continue
-            person = words[verb].tag.rsplit(":", 1)[-1]
-            if pronoun in ("PRON:refl", f"{OBJECT}{person}"):
+            if pronoun in ("PRON:refl", f"{OBJECT}{words[verb].person}"):
                 said = self._named(said, calling.index(True), behind.index(True))
             elif not any(self._topics.may_act(words, at) for at in range(verb)):
                 said = self._called(words, said, verb, (calling.index(True), behind.index(True)))

@@ -13,22 +13,22 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from teo_sign_translator.morphology import Reading
 from teo_sign_translator.pipeline.completeness import CompleteTranslation, own_places, read_gloss
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pipeline.topic import Topics
 from teo_sign_translator.text.source_word import (
     CLITICS,
+    FINITE,
     NOUNS,
     OBJECT,
     OPENING,
     TELLING,
+    THIRD_ALONE,
     SourceWord,
     clause_end,
 )
 
-#: Of a verb that says by its form alone that it is neither the signer nor the addressee who does it.
-_SAYS_WHO = re.compile(r"V:ind:(?!impf).*:3s")
+#: Of a verb that others do.
 _OTHERS = re.compile(r"V:ind:.*:3p")
 _THIRD = "3"
 _SIGNER = "1s"
@@ -62,7 +62,6 @@ class Objects:
         self._pointing = language.subjects.pointing
         self._towards, self._things = language.persons.towards, language.persons.things
         self._names = frozenset(self._pointing.values())
-        self._polite = next((gloss for gloss in topics.subjects if gloss in topics.polite), "")
         self._experiencer_verbs = language.persons.experiencer_verbs
         self._topics = topics
 
@@ -98,18 +97,16 @@ class Objects:
         self, words: Sequence[SourceWord], said: CompleteTranslation
     ) -> CompleteTranslation:
         """The same with who does it before whom it is done to: "al perro lo persigue el gato"."""
-        thirds = (at for at, word in enumerate(words) if any(_says_third(each) for each in word.readings))
-        clitic = next((at for at in thirds if _behind(words, at)), 0)
-        verbs = _behind(words, clitic) if clitic else ()
+        clitic = next((at for at in range(len(words)) if _is_third(words, at) and _behind(words, at)), 0)
+        verbs = _behind(words, clitic)
         asked = any(word.tag.startswith("WH") for word in words[:clitic])
-        if not verbs or asked or words[0].form not in self._towards or not _says(words[verbs[0]], _THIRD):
+        if not verbs or asked or words[0].form not in self._towards:
             return said
         start = verbs[-1] + 1
-        deed = words[start - 1].readings[0].lemma in self._who.deeds or words[clitic].form in self._things
+        deed = words[verbs[-1]].readings[0].lemma in self._who.deeds or words[clitic].form in self._things
         actor = range(start, clause_end(words, start, ("PREP", "V:", *OPENING)))
-        if not deed or not any(
-            self._topics.may_do(words[at]) and words[at].tag.startswith(NOUNS) for at in actor
-        ):
+        acts = any(self._topics.may_do(words[at]) and words[at].tag.startswith(NOUNS) for at in actor)
+        if not deed or not acts or not words[verbs[0]].person.startswith(_THIRD):
             return said
         own = [own_places(words, gloss) for gloss in said.glosses]
         first = [at for at, places in enumerate(own) if places and places <= {*range(clitic)}]
@@ -155,13 +152,12 @@ class Objects:
         """The same with who is not named and whom he does it to: "ayer me llamó", never AYER YO LLAMAR."""
         own, verbs = self._said(said, deed)
         pointed = [said.glosses[at].gloss for at in own]
-        asked = words[-1].form == "?" and deed.who == "3s" and deed.to_whom.startswith("1") and bool(own)
-        name = self._polite if asked else self._pointing[deed.who]
-        who = read_gloss(name, deed.verbs[0])
+        asks = words[-1].form == "?" and deed.who == "3s"  # the addressee, politely: "¿me ayuda?"
+        who = read_gloss(self._topics.polite if asks else self._pointing[deed.who], deed.verbs[0])
         to_whom = read_gloss(self._pointing[deed.to_whom], deed.clitic)
         if who.gloss in pointed or not self._is_deed(words, deed) or self._is_named(words, deed):
             return said
-        if words[-1].form == "?" and not asked and deed.who == "3s":  # who may be the addressee, politely
+        if asks and not (own and deed.to_whom.startswith("1")):
             return said
         start = _clause_start(words, deed.clitic)
         first = [min(gloss.sources, default=start) for gloss in said.glosses]
@@ -180,11 +176,9 @@ class Objects:
         """
         _, verbs = self._said(said, deed)
         wished = words[deed.verbs[0]].tag.startswith("V:sub")
-        pronouns = words[max(0, deed.clitic - 1) : deed.verbs[0]]
-        happens = any(word.tag.startswith("PRON:refl") for word in pronouns)
         to_whom = read_gloss(self._pointing[deed.to_whom], deed.clitic)
         is_said = any(gloss.gloss == to_whom.gloss for gloss in said.glosses)
-        if is_said or happens or (deed.to_whom == _SIGNER and not wished):
+        if is_said or _happens(words, deed) or (deed.to_whom == _SIGNER and not wished):
             return said
         return said.with_glosses(verbs[0], to_whom)
 
@@ -200,9 +194,9 @@ class Objects:
         return pointing, verbs
 
     def _is_deed(self, words: Sequence[SourceWord], deed: _Deed) -> bool:
-        """Whether a third person does it on purpose, in a statement: "me llamó", not "me gusta llamar"."""
+        """Whether a third person, or several, does it on purpose: "me llamó", not "me gusta llamar"."""
         finite = words[deed.verbs[0]].readings[0]
-        says_who = _SAYS_WHO.fullmatch(finite.tag) or _OTHERS.fullmatch(finite.tag)
+        says_who = THIRD_ALONE.fullmatch(finite.tag) or _OTHERS.fullmatch(finite.tag)
         if not says_who or finite.lemma in self._experiencer_verbs:
             return False
         done = {reading.lemma for reading in words[deed.verbs[-1]].readings if reading.tag.startswith("V:")}
@@ -215,13 +209,8 @@ class Objects:
         joined = start > 0 and (
             words[start - 1].form == self._who.joiner or words[start - 1].tag.startswith(("WH", "PRON:rel"))
         )
-        pronouns = words[max(0, deed.clitic - 1) : deed.verbs[0]]
-        happens = any(word.tag.startswith("PRON:refl") for word in pronouns)  # se me olvidó
-        return (
-            joined
-            or happens
-            or any(self._may_be(words, at, deed) for at in range(start, stop) if at not in deed.verbs)
-        )
+        others = (at for at in range(start, stop) if at not in deed.verbs)
+        return joined or _happens(words, deed) or any(self._may_be(words, at, deed) for at in others)
 
     def _may_be(self, words: Sequence[SourceWord], place: int, deed: _Deed) -> bool:
         """Whether a word may name who does it; behind the verb only somebody does, no thing."""
@@ -243,14 +232,15 @@ def _finite(word: SourceWord) -> str:
     return word.tag if word.tag.startswith(TELLING) else next(exact, "") if word.tag.startswith("N:") else ""
 
 
-def _says(word: SourceWord, person: str) -> bool:
-    """Whether a verb's form is of a person."""
-    return word.tag.rsplit(":", 1)[-1].startswith(person)
+def _is_third(words: Sequence[SourceWord], place: int) -> bool:
+    """Whether a word may be a pronoun for a third person to whom something is done."""
+    return any(each.tag.startswith(f"{OBJECT}{_THIRD}") for each in words[place].readings)
 
 
-def _says_third(reading: Reading) -> bool:
-    """Whether a pronoun stands for a third person, to whom or which something is done."""
-    return reading.tag.startswith(f"{OBJECT}{_THIRD}")
+def _happens(words: Sequence[SourceWord], deed: _Deed) -> bool:
+    """Whether nobody does it: "se me olvidó"."""
+    pronouns = words[max(0, deed.clitic - 1) : deed.verbs[0]]
+    return any(word.tag.startswith("PRON:refl") for word in pronouns)
 
 
 def _behind(words: Sequence[SourceWord], clitic: int) -> tuple[int, ...]:
@@ -277,7 +267,7 @@ def _up_to(words: Sequence[SourceWord], place: int) -> tuple[int, ...]:
     perfect = any(word.tag.startswith("V:part") for word in words[place + 1 : place + 2])  # haberme llamado
     done = (place, place + 1) if perfect else (place,)
     for before in range(place - 1, -1, -1):
-        if words[before].tag.startswith((*TELLING, "V:imp")):
+        if words[before].tag.startswith(FINITE):
             return (before, *done)
         if not words[before].tag.startswith((*_LINKS, *_GOVERNED)):
             break

@@ -4,11 +4,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
 from teo_sign_translator.data_files import read_sections
+from teo_sign_translator.text.source_word import SourceWord
 
 _FILE = "pipeline.yaml"
 
@@ -32,6 +34,16 @@ class CompletenessWords:
     courtesy_gloss: str
     of_things: frozenset[str]
     unsaid: frozenset[str]
+
+    def says_only_the_future(self, words: Sequence[SourceWord], place: int) -> bool:
+        """Whether a word is "voy" of "voy a comer", which a word of time may replace."""
+        following = words[place + 1 : place + 3]
+        return (
+            any(reading.lemma == self.goes for reading in words[place].readings)
+            and len(following) == 2
+            and following[0].form == self.goes_to
+            and any(reading.tag == "V:inf" for reading in following[1].readings)
+        )
 
 
 @dataclass(frozen=True)
@@ -162,8 +174,7 @@ class DenialWords:
         denying: Word that denies.
         negation: Its gloss.
         negatives: Glosses that deny and say more.
-        only: Forms of "only", which denied means "too".
-        too: Words of "too", behind what is denied so.
+        too: Words of "too", behind "not only".
         rather: Word of "but" behind what is denied.
         but: Its gloss.
         all: Dictionary forms of those of whom one is left out.
@@ -173,7 +184,6 @@ class DenialWords:
     denying: str
     negation: str
     negatives: frozenset[str]
-    only: frozenset[str]
     too: frozenset[str]
     rather: str
     but: str
@@ -196,7 +206,6 @@ class CountWords:
         until: Gloss between these.
         at_age: The two words before an age.
         age: Its gloss.
-        that: Word behind how long ago it was.
         ago: Word before it.
         past: Gloss of what is over.
     """
@@ -211,7 +220,6 @@ class CountWords:
     until: str
     at_age: tuple[str, ...]
     age: str
-    that: str
     ago: str
     past: str
 
@@ -260,6 +268,11 @@ class PipelineWords:
     denials: DenialWords
     counts: CountWords
     reliability: ReliabilityWeights
+
+    @property
+    def of_nobody(self) -> frozenset[str]:
+        """Dictionary forms of verbs whose third person nobody need do: "llueve", "hace frío", "me gusta"."""
+        return self.completeness.of_things | self.subjects.impersonal | self.persons.experiencer_verbs
 
     @classmethod
     @cache

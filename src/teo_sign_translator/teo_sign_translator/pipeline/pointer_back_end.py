@@ -120,7 +120,7 @@ class PointerBackEnd:
         self._topics = Topics(morphology.folder)
         language = PipelineWords.load(morphology.folder)
         self._meaning = (
-            Naming(morphology.folder),
+            Naming(language, self._topics, self._rules.glosses.name),
             Connectives(morphology.folder),
             Counts(language),
             Comparisons(language, self._topics),

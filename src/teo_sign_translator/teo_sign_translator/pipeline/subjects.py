@@ -19,22 +19,29 @@ from teo_sign_translator.pipeline.completeness import CompleteTranslation
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pipeline.topic import Topics, behind_preposition
 from teo_sign_translator.pointer import OutputGloss
-from teo_sign_translator.text.source_word import CLITICS, OBJECT, TELLING, SourceWord, between_marks
+from teo_sign_translator.text.source_word import (
+    CLITICS,
+    FINITE,
+    NOUNS,
+    OBJECT,
+    TELLING,
+    THIRD_ALONE,
+    SourceWord,
+    between_marks,
+    opens_clause,
+)
 
 #: Of words that say themselves who does it.
-_WHOSE = (*TELLING, "V:imp", "PRON")
+_WHOSE = (*FINITE, "PRON")
 #: Before a person of the signer's, who may be meant by what stands beside it.
 _POSSESSIVE = "DET:poss:1"
 _MAIN = ("V:ind", "V:cond")
 _SUBJUNCTIVE = re.compile(r"V:sub:.*:3s")
 _AMBIGUOUS = re.compile(r"V:(sub|cond|ind:impf)\b.*:3s")
 _SIGNERS = re.compile(r"(V|PRON)\b.*:1s")
-_THIRD = re.compile(r"V:ind:(?!impf).*:3s")
 #: Of what opens a clause in which nobody is asked for something, as in "llama a Ana".
 _SUBORDINATING = ("WH", "PRON:rel")
 _ASKING = re.compile(r"V:imp:2.*")
-#: What may stand between a mark and a verb that asks for something.
-_BEFORE_COMMANDS = ("ADV:neg", *CLITICS)
 _COMMAND = re.compile(r"V:(sub:pres|imp):.*3s")
 
 
@@ -97,7 +104,7 @@ class Subjects:
                 yield replace(gloss, gloss=self._other, sources=(verb,))
             if words[verb - 1].form == self._who.object:
                 yield replace(gloss, sources=(verb - 1,))
-        elif self._is_beside(words, verb, _THIRD) or self._is_beside_named(words, verb):
+        elif self._is_beside(words, verb, THIRD_ALONE) or self._is_beside_named(words, verb):
             yield replace(gloss, gloss=self._other)
         elif self._is_beside(words, verb, _COMMAND):
             return
@@ -111,7 +118,7 @@ class Subjects:
             return False
         start, _ = between_marks(words, verbs[0])
         asked = any(word.tag.startswith(_SUBORDINATING) for word in words[start : verbs[0]])
-        return asked and all(_THIRD.fullmatch(words[place].tag) for place in verbs)
+        return asked and all(THIRD_ALONE.fullmatch(words[place].tag) for place in verbs)
 
     def _verb(self, words: Sequence[SourceWord], gloss: OutputGloss) -> int:
         """Place of the verb that a person does, if its form alone is "yo" and "él"; -1 if it says who."""
@@ -180,7 +187,7 @@ class Subjects:
 
     def _names(self, word: SourceWord) -> bool:
         """Whether a word names somebody, by what it is most likely."""
-        return word.tag.startswith(("N:", "NAME")) and self._topics.may_do(word)
+        return word.tag.startswith(NOUNS) and self._topics.may_do(word)
 
     def _opens(self, words: Sequence[SourceWord], place: int) -> str:
         """The word that opens a clause in which something is done when, if or although; empty for none."""
@@ -260,12 +267,7 @@ def _names_signer(words: Sequence[SourceWord], apart_from: int) -> bool:
 
 def _commands(words: Sequence[SourceWord], verb: int) -> bool:
     """Whether a verb asks somebody who is called "usted" to do something: "respire", "no se mueva"."""
-    if not _says(words[verb].readings[:1], _COMMAND):
-        return False
-    before = next(
-        (word for word in reversed(words[:verb]) if not word.tag.startswith(_BEFORE_COMMANDS)), None
-    )
-    return before is None or before.is_mark
+    return _says(words[verb].readings[:1], _COMMAND) and opens_clause(words, verb)
 
 
 def _has_signers_verb(words: Sequence[SourceWord]) -> bool:

@@ -15,7 +15,7 @@ from teo_sign_translator.morphology import gloss_name
 from teo_sign_translator.morphology.lexicon import nouns
 from teo_sign_translator.pipeline.pipeline_words import PipelineWords
 from teo_sign_translator.pointer import OutputGloss
-from teo_sign_translator.text.source_word import CLITICS, SourceWord
+from teo_sign_translator.text.source_word import CLITICS, NOUNS, SourceWord
 
 #: Classes of nouns that may do what a verb says, so that they could be taken for its subject.
 _DOERS = frozenset({"person", "family", "profession", "animal", "group"})
@@ -37,8 +37,8 @@ class Topics:
         persons = PipelineWords.load(folder).persons
         #: Pronouns' glosses with the person that a verb's ending says for each.
         self.subjects = {gloss_name(word): person for word, person in persons.subjects.items()}
-        #: Those of an addressee of whom one speaks as of a third person.
-        self.polite = frozenset(map(gloss_name, persons.polite))
+        #: That of an addressee of whom one speaks as of a third person; empty if the language has none.
+        self.polite = next((gloss_name(word) for word in persons.subjects if word in persons.polite), "")
         self._doers = frozenset(noun.lemma for noun in nouns(folder) if not _DOERS.isdisjoint(noun.classes))
         self._times = frozenset(noun.lemma for noun in nouns(folder) if "time" in noun.classes)
 
@@ -60,7 +60,7 @@ class Topics:
     def may_act(self, words: Sequence[SourceWord], place: int) -> bool:
         """Whether a noun may be who does it: "el colegio", but neither "el lunes" nor "en el colegio"."""
         reading = words[place].readings[0]
-        if not reading.tag.startswith(("N:", "NAME")) or reading.lemma in self._times:
+        if not reading.tag.startswith(NOUNS) or reading.lemma in self._times:
             return False
         return not behind_preposition(words, place)
 
@@ -108,8 +108,14 @@ class Topics:
 
 def behind_preposition(words: Sequence[SourceWord], place: int) -> bool:
     """Whether a preposition stands before a noun and what belongs to it."""
-    before = (word.tag for word in reversed(words[:place]) if not word.tag.startswith(_BEFORE_NOUNS))
-    return next(before, "").startswith("PREP")
+    return preposition_before(words, place) >= 0
+
+
+def preposition_before(words: Sequence[SourceWord], place: int) -> int:
+    """Place of the preposition before a noun and what belongs to it; -1 if none is."""
+    before = (at for at in range(place - 1, -1, -1) if not words[at].tag.startswith(_BEFORE_NOUNS))
+    at = next(before, -1)
+    return at if at >= 0 and words[at].tag.startswith("PREP") else -1
 
 
 def _in_relative_clause(words: Sequence[SourceWord], verb: int) -> bool:

@@ -34,11 +34,7 @@ class Wishes:
         """Take how a language joins clauses and points at persons, and who may do things."""
         self._who = language.subjects
         self._names = frozenset(language.subjects.pointing.values())
-        self._done_by_nobody = (
-            language.completeness.of_things
-            | language.subjects.impersonal
-            | language.persons.experiencer_verbs
-        )
+        self._done_by_nobody = language.of_nobody
         self._topics = topics
 
     def read(self, words: Sequence[SourceWord], said: CompleteTranslation) -> CompleteTranslation:

@@ -11,13 +11,11 @@ from itertools import pairwise
 
 from teo_sign_translator.morphology import Morphology, Reading
 from teo_sign_translator.text.rules import TextRules
-from teo_sign_translator.text.source_word import CLITICS, FINITE, SourceWord
+from teo_sign_translator.text.source_word import BEFORE_VERBS, CLITICS, FINITE, SourceWord
 
 _MASCULINE = re.compile("[NA]:[mc][sn]|V:part:ms")
 # Forms of a verb that tell its person, as not every language's do.
 _PERSONAL = re.compile(f"(?:{'|'.join(FINITE)}).*:[123][sp]")
-# What may stand between what opens a clause and its verb.
-_BEFORE_VERBS = ("ADV:neg", *CLITICS)
 # Pronouns that are subjects alone; question words, and articles that are pronouns too or stand before them:
 # not el and un, which stand before feminine nouns too.
 _SUBJECTS = ("PRON:1s", "PRON:2s")
@@ -34,13 +32,11 @@ def told_by_neighbours(words: list[SourceWord], morphology: Morphology) -> list[
         if place == 0 and following.tag.startswith(("ADV:neg", *CLITICS, *FINITE)):
             written = told.opening.get(word.form, written)
         if word.form in told.conditional and (place == 0 or words[place - 1].is_mark):
-            verb = next((each for each in words[place + 1 :] if not each.tag.startswith(_BEFORE_VERBS)), word)
+            verb = next((each for each in words[place + 1 :] if not each.tag.startswith(BEFORE_VERBS)), word)
             supposed = {each.lemma for each in verb.readings if each.exact and each.tag.startswith("V:sub")}
             written = told.conditional[word.form] if supposed - told.not_conditional else written
         if following.tag.startswith("V:inf"):
             written = told.infinitive.get(word.form, written)
-        if following.is_mark:
-            written = told.misspelled.get(word.form, written)
         if written:
             word = words[place] = replace(word, form=written, readings=morphology.readings(written))
         if following.form not in told.amounts:
@@ -53,9 +49,12 @@ def told_by_neighbours(words: list[SourceWord], morphology: Morphology) -> list[
         words[place] = _counting(words[place : place + 4], morphology)
     if len(words) > 1 and words[1].is_mark:
         words[0] = replace(words[0], readings=_as_order(words[0].readings))
-    if len(words) > 1 and words[-1].form in told.misspelled:
-        written = told.misspelled[words[-1].form]
-        words[-1] = replace(words[-1], form=written, readings=morphology.readings(written))
+    for place in range(1, len(words)):
+        asks, word = words[place - 1].tag.startswith("WH"), words[place]
+        is_last = all(following.is_mark for following in words[place + 1 : place + 2])
+        if asks and is_last and word.form in told.misspelled:  # "dónde estas", but "prefiero estas"
+            written = told.misspelled[word.form]
+            words[place] = replace(word, form=written, readings=morphology.readings(written))
     behind_copula = False
     before = ""
     for place, word in enumerate(words):

@@ -218,7 +218,7 @@ class Neighbours:
         opening: What means something else before the first verb, and that word ("igual viene": quizás).
         conditional: Word that is another before a subjunctive that opens a sentence ("como no comas": si).
         not_conditional: Dictionary forms before which it is not ("como quieras").
-        misspelled: Verbs typed without an accent where nothing follows to go with ("dónde estas").
+        misspelled: Verbs typed without an accent behind a question word ("dónde estas").
         motion: Lemmas of verbs whose form is no noun before what one comes to do ("vino a cenar").
         amounts: Forms that are no verb before others, and these ("nada más", "nada de").
     """

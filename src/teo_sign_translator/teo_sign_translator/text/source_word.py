@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -18,6 +19,10 @@ COMPANIONS = ("PRON:with", "PRON:prep")
 #: How those begin of verbs whose form says who does it, and of these with orders.
 TELLING = ("V:ind", "V:sub", "V:cond")
 FINITE = (*TELLING, "V:imp")
+#: Of a verb that says by its form alone that it is neither the signer nor the addressee who does it.
+THIRD_ALONE = re.compile(r"V:ind:(?!impf).*:3s")
+#: What may stand between the beginning of a clause and its verb: what denies, and pronouns.
+BEFORE_VERBS = ("ADV:neg", *CLITICS)
 #: How those begin of what names somebody or something.
 NOUNS = ("N:", "NAME")
 #: What a clause ends before or opens with.
@@ -51,6 +56,11 @@ class SourceWord:
         return self.readings[0].tag
 
     @property
+    def person(self) -> str:
+        """Person and number that a verb's likeliest reading says, e.g. "3s"; what it ends with, of others."""
+        return self.tag.rsplit(":", 1)[-1]
+
+    @property
     def is_mark(self) -> bool:
         """Whether it is punctuation."""
         return self.tag == "MARK"
@@ -66,3 +76,9 @@ def between_marks(words: Sequence[SourceWord], place: int) -> tuple[int, int]:
 def clause_end(words: Sequence[SourceWord], place: int, tags: tuple[str, ...] = OPENING) -> int:
     """Where what stands at a place ends: before the next word of some kinds."""
     return next((at for at in range(place, len(words)) if words[at].tag.startswith(tags)), len(words))
+
+
+def opens_clause(words: Sequence[SourceWord], verb: int) -> bool:
+    """Whether a verb is the first word behind a mark, but for what denies and its pronouns."""
+    before = (word for word in reversed(words[:verb]) if not word.tag.startswith(BEFORE_VERBS))
+    return next((word.is_mark for word in before), True)

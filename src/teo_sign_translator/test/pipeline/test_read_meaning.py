@@ -45,6 +45,7 @@ from loaded import translator
         ("Como no vino, me fui.", "MOTIVO VENIR NO YO IR"),
         ("A menos que nieve, jugaremos.", "SI NEVAR NO NOSOTROS JUGAR"),
         ("dnd estas", "TÚ DÓNDE"),
+        ("Prefiero estas.", "YO ESTE PREFERIR"),
         ("q comes esta noche", "HOY NOCHE TÚ COMER QUÉ"),
         ("Iba a llamarte.", "YO TÚ LLAMAR"),
         ("¿Hasta qué hora abrís?", "VOSOTROS ABRIR HASTA HORA CUÁL"),
